@@ -1,0 +1,1 @@
+//! Where cloth meets obstacles.

@@ -1,0 +1,1 @@
+//! How cloth moves: energies, their derivatives, and one implicit step.

@@ -1,0 +1,45 @@
+//! Shotsilk simulates cloth only as finely as the shot's camera can see it.
+//!
+//! The modules stand in reading order; each uses only those above it:
+//! what is simulated ([`math`], [`mesh`], [`scene`], [`shot`]), how fine ([`sizing`], [`view`],
+//! [`remesh`]), how it moves ([`dynamics`], [`collision`], [`sim`]), how it is kept ([`run`]) and
+//! shown ([`render`], [`sheet`]), and how it is started ([`cli`]).
+//!
+//! # One frame
+//! ```text
+//! for each step:   obstacles and handles move -> contacts -> implicit step -> collisions resolved
+//! once a frame:    base metric per face -> view factor per face -> view-dependent metric
+//!                  -> faces to vertices -> remesh -> the frame is published
+//! ```
+//!
+//! # Invariants
+//! - Nothing above `sim` knows threads, files, GPU or clocks; nothing above `render` knows wgpu.
+//! - The simulation computes in `f64`; `f32` begins at upload.
+//! - A published frame never changes.
+//! - The simulation is a pure function of shot and settings.
+//! - SI units: metres, kilograms, seconds, radians. Z is up, right-handed.
+//!
+//! Symbols and citations are collected in [`papers`].
+
+pub mod papers;
+
+pub mod math;
+pub mod mesh;
+pub mod scene;
+pub mod shot;
+
+pub mod sizing;
+pub mod view;
+
+pub mod remesh;
+
+pub mod collision;
+pub mod dynamics;
+pub mod sim;
+
+pub mod run;
+
+pub mod render;
+pub mod sheet;
+
+pub mod cli;

@@ -1,0 +1,7 @@
+//! Small mathematics that every other module shares: 2x2 tensors and metrics, 3x2 derivatives.
+
+mod mat3x2;
+mod tensor;
+
+pub use mat3x2::Mat3x2;
+pub use tensor::{Eigen2, SymTensor2};

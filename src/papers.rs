@@ -1,0 +1,45 @@
+//! The papers this program implements, as items that other documentation links to: `cargo doc`
+//! then checks every citation.
+//!
+//! | symbol | code | meaning |
+//! | --- | --- | --- |
+//! | u | material position | coordinates in the flat, undeformed cloth (m) |
+//! | x, v | position, velocity | in the world (m), (m/s) |
+//! | F = dx/du | deformation gradient | 3x2, per face |
+//! | M | [`SymTensor2`](crate::math::SymTensor2) | sizing tensor (1/m^2): an edge du is valid if du^T M du <= 1 |
+//! | nu | view factor | 0..1, scales M by nu^2 |
+//! | m, T, k | `margin_m`, `anticipation_frames`, `buckling_exponent` | settings of the view |
+
+/// Koh, Narain, O'Brien: *View-Dependent Adaptive Cloth Simulation with Buckling Compensation*,
+/// IEEE TVCG 2015. Holds wherever it differs from [`VD14`].
+pub enum VD15 {}
+
+/// Koh, Narain, O'Brien: *View-Dependent Adaptive Cloth Simulation*, SCA 2014.
+pub enum VD14 {}
+
+/// Brown, Samii, O'Brien, Narain: *Resampling Adaptive Cloth Simulations onto Fixed-Topology
+/// Meshes*, SCA 2015 poster.
+pub enum RS15 {}
+
+/// Narain, Samii, O'Brien: *Adaptive Anisotropic Remeshing for Cloth Simulation*, ACM TOG 2012.
+pub enum NSO12 {}
+
+/// Narain, Pfaff, O'Brien: *Folding and Crumpling Adaptive Sheets*, ACM TOG 2013.
+pub enum NPO13 {}
+
+/// Wang, O'Brien, Ramamoorthi: *Data-Driven Elastic Models for Cloth: Modeling and Measurement*,
+/// ACM TOG 2011.
+pub enum WOR11 {}
+
+/// Baraff, Witkin: *Large Steps in Cloth Simulation*, SIGGRAPH 1998.
+pub enum BW98 {}
+
+/// Bridson, Marino, Fedkiw: *Simulation of Clothing with Folds and Wrinkles*, SCA 2003.
+pub enum BMF03 {}
+
+/// Fritsch, Carlson: *Monotone Piecewise Cubic Interpolation*, SIAM J. Numer. Anal. 1980.
+pub enum FC80 {}
+
+/// Baerentzen, Aanaes: *Signed Distance Computation Using the Angle Weighted Pseudonormal*,
+/// IEEE TVCG 2005.
+pub enum BA05 {}

@@ -1,0 +1,1 @@
+//! Split, collapse and flip until every edge is valid and the mesh is coarse.

@@ -1,0 +1,1 @@
+//! Drawing: the same call for files and for a window.

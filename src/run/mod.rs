@@ -1,0 +1,1 @@
+//! The folder a simulation writes: settings, exact states, statistics.

@@ -1,0 +1,113 @@
+//! What is simulated: garments, fabrics, obstacles, motions, handles, air. Plain data in SI units,
+//! as importers resolve it; files are read in [`native`](self) and `arcsim`.
+
+mod fabric;
+mod motion;
+mod settings;
+
+pub use fabric::{Fabric, MeasuredFabric, StretchStiffness};
+pub use motion::{Motion, MotionKey, Pose};
+pub use settings::{Air, Contact, SizingSettings, StageSwitches, ViewRule, ViewSettings};
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::mesh::Mesh;
+use crate::shot::CameraPath;
+
+/// A shot, resolved: everything a simulation depends on, and nothing else.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// For captions and messages: the shot's file name without folders and extension.
+    pub name: String,
+    /// Frames per second.
+    pub fps: f64,
+    /// Steps a frame is divided into, at least 1.
+    pub steps_per_frame: u32,
+    /// The last frame the scene itself asks for; `None` if it runs until told to stop.
+    pub last_frame: Option<u32>,
+    /// What frame 0 is called where frames are shown and written.
+    pub first_frame: i64,
+    /// Acceleration (m/s^2).
+    pub gravity: DVec3,
+    pub air: Air,
+    pub contact: Contact,
+    /// Stiffness of the springs that hold handle nodes (N/m).
+    pub handle_stiffness: f64,
+    pub stages: StageSwitches,
+    pub garments: Vec<Garment>,
+    pub obstacles: Vec<Obstacle>,
+    pub motions: Vec<Motion>,
+    pub handles: Vec<Handle>,
+    /// The cameras that watch; the first is the shot camera. Empty: nobody watches, and view
+    /// sizing is the same as adaptive sizing.
+    pub viewers: Vec<CameraPath>,
+}
+
+/// A piece of cloth.
+#[derive(Clone, Debug)]
+pub struct Garment {
+    pub name: String,
+    /// As it is at frame 0, in the world.
+    pub mesh: Mesh,
+    pub fabric: Fabric,
+    pub sizing: SizingSettings,
+    pub view: ViewSettings,
+    /// Both sides are meant to be seen, so that `nu_back` applies to no face in frame.
+    pub two_sided: bool,
+}
+
+/// A solid that the cloth must not enter: a closed surface, moved rigidly.
+#[derive(Clone, Debug)]
+pub struct Obstacle {
+    pub name: String,
+    /// In the obstacle's own space.
+    pub surface: Arc<Surface>,
+    /// From the obstacle's own space to the space of its motion, or to the world if it has none.
+    pub placement: Pose,
+    /// Index into the scene's motions.
+    pub motion: Option<usize>,
+}
+
+/// Triangles without connectivity; counter-clockwise seen from outside.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surface {
+    pub positions: Vec<DVec3>,
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// Nodes of a garment that are held, or led along a motion.
+#[derive(Clone, Debug)]
+pub struct Handle {
+    /// Index into the scene's garments.
+    pub garment: usize,
+    /// Indices of the nodes in the garment's input.
+    pub nodes: Vec<u32>,
+    /// Index into the scene's motions; `None` holds the nodes where they are.
+    pub motion: Option<usize>,
+    /// When the handle takes hold (s).
+    pub start_time: f64,
+    /// When it lets go (s); infinite if never.
+    pub end_time: f64,
+}
+
+impl Scene {
+    /// (s).
+    pub fn frame_time(&self) -> f64 {
+        1.0 / self.fps
+    }
+
+    /// (s).
+    pub fn step_time(&self) -> f64 {
+        self.frame_time() / f64::from(self.steps_per_frame)
+    }
+
+    /// From an obstacle's own space to the world at a time (s).
+    pub fn obstacle_pose(&self, obstacle: &Obstacle, time: f64) -> Pose {
+        match obstacle.motion {
+            Some(motion) => self.motions[motion].pose(time) * obstacle.placement,
+            None => obstacle.placement,
+        }
+    }
+}

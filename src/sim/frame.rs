@@ -1,0 +1,100 @@
+//! One finished frame: what the simulation publishes and everything downstream reads.
+
+use std::sync::Arc;
+
+use crate::mesh::Mesh;
+use crate::scene::Pose;
+
+/// The state at the end of a frame. Never changes once published.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Frames since the start; 0 is the start itself.
+    pub number: u32,
+    /// (s).
+    pub time: f64,
+    /// In the order of the scene's garments.
+    pub garments: Vec<Arc<Mesh>>,
+    /// World from obstacle space, in the order of the scene's obstacles.
+    pub obstacle_poses: Vec<Pose>,
+    pub report: FrameReport,
+}
+
+impl Frame {
+    pub fn face_count(&self) -> usize {
+        self.garments.iter().map(|g| g.face_count()).sum()
+    }
+
+    pub fn vertex_count(&self) -> usize {
+        self.garments.iter().map(|g| g.vertex_count()).sum()
+    }
+
+    pub fn node_count(&self) -> usize {
+        self.garments.iter().map(|g| g.node_count()).sum()
+    }
+}
+
+/// What a frame cost and how it went.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FrameReport {
+    pub stages: StageSeconds,
+    /// Process CPU time over the frame (s).
+    pub cpu_seconds: f64,
+    pub view_factor_min: f64,
+    /// Weighted by material area.
+    pub view_factor_mean: f64,
+    /// Intersecting triangle pairs at the end of the frame; `None` unless counted.
+    pub intersections: Option<usize>,
+    /// Steps taken; more than asked for where steps were halved.
+    pub steps_taken: u32,
+    /// Largest principal stretch of a face minus 1.
+    pub largest_stretch: f64,
+    /// What went wrong and was mended, in words.
+    pub warnings: Vec<String>,
+}
+
+/// Wall seconds by stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StageSeconds {
+    pub obstacles: f64,
+    pub proximity: f64,
+    pub dynamics: f64,
+    pub collision: f64,
+    pub sizing: f64,
+    pub view: f64,
+    pub remesh: f64,
+    pub untangle: f64,
+    pub other: f64,
+}
+
+impl StageSeconds {
+    /// Names as in `stats.csv` without `_s`, and values in that order.
+    pub fn entries(&self) -> [(&'static str, f64); 9] {
+        // Exhaustive, so that a new stage cannot be forgotten here.
+        let Self {
+            obstacles,
+            proximity,
+            dynamics,
+            collision,
+            sizing,
+            view,
+            remesh,
+            untangle,
+            other,
+        } = *self;
+        [
+            ("obstacles", obstacles),
+            ("proximity", proximity),
+            ("dynamics", dynamics),
+            ("collision", collision),
+            ("sizing", sizing),
+            ("view", view),
+            ("remesh", remesh),
+            ("untangle", untangle),
+            ("other", other),
+        ]
+    }
+
+    pub fn total(&self) -> f64 {
+        self.entries().iter().map(|(_, seconds)| seconds).sum()
+    }
+}

@@ -1,0 +1,5 @@
+//! The main loop.
+
+mod frame;
+
+pub use frame::{Frame, FrameReport, StageSeconds};

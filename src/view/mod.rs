@@ -1,0 +1,1 @@
+//! How fine each part of a garment must be for those who look.
