@@ -153,7 +153,7 @@ impl Mesh {
     fn keep_outline(&mut self, pinned: &[u32]) {
         for node in self.node_ids() {
             let NodeOrigin::Input { index } = self.node_origin[node] else { continue };
-            if pinned.contains(&index) || self.is_boundary_node(node) || self.is_seam_node(node) {
+            if pinned.contains(&index) || self.is_boundary_node(node) || self.touches_seam(node) {
                 self.node_origin[node] = NodeOrigin::Kept { index };
             }
         }

@@ -14,7 +14,7 @@ mod walk;
 
 pub use build::{MeshError, RawMesh};
 pub use check::Flaw;
-pub use edit::MeshEditor;
+pub use edit::{Collapse, CollapseRefusal, FlipRefusal, MeshEditor};
 pub use id::{CornerId, FaceId, Id, IdVec, NodeId, VertexId};
 pub use measure::{aspect_ratio, signed_area};
 
@@ -131,3 +131,6 @@ impl Mesh {
         self.node_ids().find(|&n| !(self.position[n].is_finite() && self.velocity[n].is_finite()))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -74,6 +74,11 @@ impl Mesh {
         corners.any(|c| Some(self.vertex_at(c)) != first)
     }
 
+    /// True if a seam runs through the node or, as at the tip of a dart, ends in it.
+    pub fn touches_seam(&self, node: NodeId) -> bool {
+        self.corners_around(node).any(|c| self.is_seam(c.next()) || self.is_seam(c.previous()))
+    }
+
     /// A corner whose opposite edge joins the two nodes, if they are neighbours.
     pub fn edge_between(&self, a: NodeId, b: NodeId) -> Option<CornerId> {
         self.corners_around(a).find_map(|c| {
