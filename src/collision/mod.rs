@@ -1,1 +1,19 @@
-//! Where cloth meets obstacles.
+//! Where cloth meets obstacles: proximity for the implicit step, resolution after it, and a guard
+//! for the remesher. The only place that knows parry.
+
+mod face_tree;
+mod guard;
+mod obstacles;
+mod proximity;
+mod resolve;
+mod shape;
+
+pub use face_tree::{FaceTree, Touch};
+pub use guard::ObstacleGuard;
+pub use obstacles::{ObstacleMotion, Obstacles};
+pub use proximity::{Cloth, contacts, nearest_planes};
+pub use resolve::{MovedCloth, ResolveReport, resolve};
+pub use shape::{Nearest, Shape};
+
+#[cfg(test)]
+mod tests;

@@ -1,7 +1,10 @@
-//! Small mathematics that every other module shares: 2x2 tensors and metrics, 3x2 derivatives.
+//! Small mathematics that every other module shares: 2x2 tensors and metrics, 3x2 derivatives,
+//! triangles in space.
 
 mod mat3x2;
 mod tensor;
+mod triangle;
 
 pub use mat3x2::Mat3x2;
 pub use tensor::{Eigen2, SymTensor2};
+pub use triangle::{ClosestPoint, closest_point_on_triangle, triangles_cross};

@@ -1,0 +1,104 @@
+//! A tree over the cloth's faces in the world: built when the topology changes, refitted as the
+//! cloth moves.
+
+use glam::DVec3;
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhLeafCost, BvhNode};
+
+use super::proximity::Cloth;
+use super::shape::bounds;
+use crate::math::{ClosestPoint, closest_point_on_triangle};
+
+/// See the module.
+pub struct FaceTree {
+    tree: Bvh,
+}
+
+/// A point of an obstacle and the point of the cloth nearest to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    pub nodes: [usize; 3],
+    /// Barycentric.
+    pub weights: [f64; 3],
+    /// From the obstacle to the cloth, unit.
+    pub normal: DVec3,
+    /// (m); negative if the cloth has sunk in.
+    pub signed_distance: f64,
+}
+
+impl FaceTree {
+    pub fn new(positions: &[DVec3], faces: &[[u32; 3]]) -> Self {
+        let boxes: Vec<Aabb> = faces.iter().map(|f| bounds(&corners(positions, f))).collect();
+        Self { tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
+    }
+
+    /// Follows the nodes to where they are now.
+    pub fn refit(&mut self, positions: &[DVec3], faces: &[[u32; 3]]) {
+        for (index, face) in faces.iter().enumerate() {
+            self.tree.insert_or_update_partially(
+                bounds(&corners(positions, face)),
+                index as u32,
+                0.0,
+            );
+        }
+        self.tree.refit_without_opt();
+    }
+
+    pub fn bounds(&self) -> Aabb {
+        self.tree.root_aabb()
+    }
+
+    /// The face nearest to a point of an obstacle with the given outward normal, within a reach
+    /// (m). Cloth on the inner side counts as sunk in only straight below the point: further aside
+    /// it belongs to another part of the surface.
+    pub fn touch(
+        &self,
+        cloth: Cloth<'_>,
+        point: DVec3,
+        outward: DVec3,
+        reach: f64,
+    ) -> Option<Touch> {
+        let box_distance =
+            |node: &BvhNode, _best: f64| point.distance(point.clamp(node.mins(), node.maxs()));
+        let leaf = |face: u32, _best: f64| {
+            let corners = corners(cloth.position, &cloth.faces[face as usize]);
+            let closest = closest_point_on_triangle(point, corners);
+            Some(Candidate { distance: closest.point.distance(point), closest })
+        };
+        let (face, best) = self.tree.find_best(reach, box_distance, leaf)?;
+        let away = best.closest.point - point;
+        let height = away.dot(outward);
+        let (normal, signed_distance) = if height > 0.0 {
+            (away / best.distance, best.distance)
+        } else if -height >= SUNK_COSINE_MIN * best.distance {
+            ((-away).try_normalize().unwrap_or(outward), -best.distance)
+        } else {
+            return None;
+        };
+        Some(Touch {
+            nodes: cloth.faces[face as usize].map(|n| n as usize),
+            weights: best.closest.barycentric,
+            normal,
+            signed_distance,
+        })
+    }
+}
+
+/// Cosine of the widest angle from straight below at which cloth counts as sunk in: cloth pressed on
+/// the corner of a cube is 55 degrees from the corner's normal.
+const SUNK_COSINE_MIN: f64 = 0.5;
+
+struct Candidate {
+    distance: f64,
+    closest: ClosestPoint,
+}
+
+impl BvhLeafCost for Candidate {
+    fn cost(&self) -> f64 {
+        self.distance
+    }
+}
+
+fn corners(positions: &[DVec3], face: &[u32; 3]) -> [DVec3; 3] {
+    face.map(|n| positions[n as usize])
+}

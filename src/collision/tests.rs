@@ -1,0 +1,202 @@
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+
+use super::*;
+use crate::remesh::EditGuard;
+use crate::scene::{Contact, Pose, Surface};
+
+/// The cube from -1 to 1.
+fn cube() -> Surface {
+    let corner = |i: u32| {
+        let axis = |bit: u32| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        DVec3::new(axis(0), axis(1), axis(2))
+    };
+    let quads: [[u32; 4]; 6] =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    Surface {
+        positions: (0..8).map(corner).collect(),
+        triangles: quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).collect(),
+    }
+}
+
+fn at(translation: DVec3) -> Pose {
+    Pose { translation, ..Pose::IDENTITY }
+}
+
+fn moving(start: Pose, end: Pose) -> Vec<ObstacleMotion> {
+    vec![ObstacleMotion::new(Arc::new(Shape::new(&cube())), start, end, 0.005)]
+}
+
+fn still() -> Vec<ObstacleMotion> {
+    moving(Pose::IDENTITY, Pose::IDENTITY)
+}
+
+const SETTINGS: Contact =
+    Contact { thickness: 0.01, stiffness: 1e6, friction_cloth: 0.6, friction_obstacle: 0.3 };
+
+#[test]
+fn signed_distance_of_a_cube_is_exact_inside_and_out() {
+    let shape = Shape::new(&cube());
+    let exact = |p: DVec3| {
+        let q = p.abs() - 1.0;
+        q.max(DVec3::ZERO).length() + q.max_element().min(0.0)
+    };
+    for i in 0..1000u32 {
+        let h = |k: u32| f64::from((i * 7919 + 31) * k % 1009) / 336.0 - 1.5;
+        let p = DVec3::new(h(1), h(7), h(13));
+        let nearest = shape.nearest(p, 10.0).unwrap();
+        assert!((nearest.signed_distance - exact(p)).abs() < 1e-12, "{p}");
+        assert!((nearest.normal.length() - 1.0).abs() < 1e-12);
+        let rebuilt = nearest.point + nearest.normal * nearest.signed_distance;
+        assert!(rebuilt.distance(p) < 1e-12);
+    }
+}
+
+#[test]
+fn nothing_is_found_beyond_the_radius() {
+    let shape = Shape::new(&cube());
+    assert!(shape.nearest(DVec3::X * 1.5, 0.49).is_none());
+    assert!(shape.nearest(DVec3::X * 1.5, 0.51).is_some());
+}
+
+#[test]
+fn the_velocity_of_a_turning_obstacle_is_that_of_its_points() {
+    let turn = Pose { rotation: DQuat::from_rotation_z(1e-6), ..Pose::IDENTITY };
+    let obstacle = &moving(Pose::IDENTITY, turn)[0];
+    let expected = DVec3::Z.cross(DVec3::X * 2.0) * 1e-6 / 0.005;
+    assert!((obstacle.velocity_at(DVec3::X * 2.0) - expected).length() < 1e-9);
+}
+
+/// One big face above the cube's top, its middle sagging to a height.
+fn sheet(height: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let at = |x: f64, y: f64| DVec3::new(x, y, height);
+    (vec![at(-4.0, -3.0), at(4.0, -3.0), at(0.0, 5.0)], vec![[0, 1, 2]])
+}
+
+fn contacts_of(
+    positions: &[DVec3],
+    velocity: DVec3,
+    obstacles: &[ObstacleMotion],
+) -> Vec<crate::dynamics::ContactPoint> {
+    let faces = vec![[0, 1, 2]];
+    let velocities = vec![velocity; positions.len()];
+    let area = vec![1.0; positions.len()];
+    let tree = FaceTree::new(positions, &faces);
+    let cloth = Cloth { position: positions, velocity: &velocities, area: &area, faces: &faces };
+    contacts(cloth, &tree, obstacles, &SETTINGS)
+}
+
+#[test]
+fn corners_of_an_obstacle_hold_a_face_that_has_no_node_near() {
+    let (positions, _) = sheet(1.005);
+    let found = contacts_of(&positions, DVec3::ZERO, &still());
+    assert_eq!(found.len(), 4, "the four upper corners of the cube");
+    for contact in &found {
+        assert!((contact.gap + 0.005).abs() < 1e-12);
+        assert!((contact.normal - DVec3::Z).length() < 1e-12);
+        let weights: f64 = contact.nodes.iter().map(|(_, w)| w).sum();
+        assert!((weights - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_face_that_sank_below_the_corners_is_lifted_out() {
+    let (start, faces) = sheet(1.02);
+    let (mut position, _) = sheet(0.996);
+    let mut velocity = vec![DVec3::NEG_Z * 4.8; 3];
+    let mut tree = FaceTree::new(&start, &faces);
+    let mut cloth = MovedCloth {
+        position: &mut position,
+        velocity: &mut velocity,
+        position_at_start: &start,
+        area: &[1.0; 3],
+        faces: &faces,
+    };
+    let report = resolve(&mut cloth, &mut tree, &still(), &SETTINGS);
+    assert!(report.impacts > 0);
+    assert_eq!(report.trapped, 0);
+    let found = contacts_of(&position, DVec3::ZERO, &still());
+    assert!(found.iter().all(|c| c.gap > -SETTINGS.thickness));
+}
+
+#[test]
+fn a_contact_is_foreseen_when_it_would_be_broken_within_the_step() {
+    let positions =
+        [DVec3::new(0.0, 0.0, 1.02), DVec3::new(0.1, 0.0, 1.5), DVec3::new(0.0, 0.1, 1.5)];
+    assert!(contacts_of(&positions, DVec3::ZERO, &still()).is_empty());
+    assert!(contacts_of(&positions, DVec3::Z * 9.0, &still()).is_empty());
+    assert_eq!(contacts_of(&positions, DVec3::NEG_Z * 3.0, &still()).len(), 1);
+    let rising = moving(Pose::IDENTITY, at(DVec3::Z * 0.015));
+    assert_eq!(contacts_of(&positions, DVec3::ZERO, &rising).len(), 1);
+}
+
+#[test]
+fn a_node_that_a_fast_obstacle_ran_over_is_carried_in_front_of_it() {
+    let start =
+        [DVec3::new(1.008, 0.0, 0.0), DVec3::new(3.0, 0.5, 0.0), DVec3::new(3.0, -0.5, 0.0)];
+    let (mut position, mut velocity) = (start, [DVec3::ZERO; 3]);
+    let faces = [[0, 1, 2]];
+    let mut tree = FaceTree::new(&start, &faces);
+    // Twenty thicknesses in a step.
+    let obstacles = moving(Pose::IDENTITY, at(DVec3::X * 0.2));
+    let mut cloth = MovedCloth {
+        position: &mut position,
+        velocity: &mut velocity,
+        position_at_start: &start,
+        area: &[1.0; 3],
+        faces: &faces,
+    };
+    resolve(&mut cloth, &mut tree, &obstacles, &SETTINGS);
+    assert!((position[0].x - 1.201).abs() < 1e-9, "{}", position[0]);
+    assert!((velocity[0].x - 40.0).abs() < 1e-6, "{}", velocity[0]);
+}
+
+#[test]
+fn a_node_between_two_overlapping_parts_is_reported_as_trapped() {
+    let shape = Arc::new(Shape::new(&cube()));
+    let left = at(DVec3::X * -0.999);
+    let right = at(DVec3::X * 0.999);
+    let obstacles = vec![
+        ObstacleMotion::new(shape.clone(), left, left, 0.005),
+        ObstacleMotion::new(shape, right, right, 0.005),
+    ];
+    let start = [DVec3::ZERO, DVec3::Y * 9.0, DVec3::Z * 9.0];
+    let (mut position, mut velocity) = (start, [DVec3::ZERO; 3]);
+    let faces = [[0, 1, 2]];
+    let mut tree = FaceTree::new(&start, &faces);
+    let mut cloth = MovedCloth {
+        position: &mut position,
+        velocity: &mut velocity,
+        position_at_start: &start,
+        area: &[1.0; 3],
+        faces: &faces,
+    };
+    let report = resolve(&mut cloth, &mut tree, &obstacles, &SETTINGS);
+    assert!(report.trapped > 0);
+    assert!(position.iter().all(|x| x.is_finite()));
+}
+
+#[test]
+fn the_guard_refuses_a_face_through_an_obstacle_only() {
+    let obstacles = still();
+    let guard = ObstacleGuard { obstacles: &obstacles };
+    let through =
+        [DVec3::new(-2.0, 0.0, 0.0), DVec3::new(2.0, 0.0, 0.1), DVec3::new(0.0, 3.0, 0.0)];
+    let above = through.map(|p| p + DVec3::Z * 1.5);
+    assert!(!guard.allows(&[above, through]));
+    assert!(guard.allows(&[above]));
+}
+
+#[test]
+fn nearest_planes_come_from_the_nearest_obstacle_in_range() {
+    let shape = Arc::new(Shape::new(&cube()));
+    let obstacles = [0.0, 2.5].map(|x| {
+        let pose = at(DVec3::X * x);
+        ObstacleMotion::new(shape.clone(), pose, pose, 0.005)
+    });
+    let planes = nearest_planes(&[DVec3::X * 1.1, DVec3::X * 1.4, DVec3::Z * 5.0], &obstacles, 0.3);
+    assert!((planes[0].unwrap().normal - DVec3::X).length() < 1e-12);
+    assert!((planes[1].unwrap().normal + DVec3::X).length() < 1e-12);
+    assert!(planes[2].is_none());
+}
