@@ -48,6 +48,8 @@ pub struct FrameReport {
     pub steps_taken: u32,
     /// Largest principal stretch of a face minus 1.
     pub largest_stretch: f64,
+    /// Nodes inside an obstacle after the last step, as between two parts that overlap.
+    pub trapped_nodes: usize,
     /// What went wrong and was mended, in words.
     pub warnings: Vec<String>,
 }
@@ -97,4 +99,23 @@ impl StageSeconds {
     pub fn total(&self) -> f64 {
         self.entries().iter().map(|(_, seconds)| seconds).sum()
     }
+}
+
+/// Fills in what can be read off the finished garments.
+pub(super) fn measure(garments: &[Mesh], report: &mut FrameReport) {
+    let (mut area, mut weighted, mut least) = (0.0, 0.0, f64::INFINITY);
+    let mut largest_stretch: f64 = 0.0;
+    for mesh in garments {
+        for face in mesh.face_ids() {
+            let face_area = mesh.material_area(face);
+            area += face_area;
+            weighted += face_area * mesh.view_factor[face];
+            least = least.min(mesh.view_factor[face]);
+            largest_stretch =
+                largest_stretch.max(mesh.deformation_gradient(face).singular_values()[0]);
+        }
+    }
+    report.view_factor_min = if least.is_finite() { least } else { 1.0 };
+    report.view_factor_mean = if area > 0.0 { weighted / area } else { 1.0 };
+    report.largest_stretch = largest_stretch - 1.0;
 }

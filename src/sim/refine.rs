@@ -1,0 +1,92 @@
+//! Once a frame: how fine must each garment be, and the remeshing to it.
+
+use super::clock::{Stage, StageClock};
+use super::frame::FrameReport;
+use super::{MovingCloth, PerFace, Simulation, SizingMode};
+use crate::collision::{ObstacleGuard, ObstacleMotion, nearest_planes};
+use crate::math::SymTensor2;
+use crate::mesh::{IdVec, Mesh, NodeId};
+use crate::remesh::{NoGuard, RemeshReport, RemeshSettings, remesh};
+use crate::sizing::{Plane, base_metric, faces_to_vertices};
+use crate::view::{ViewerWindow, view_field};
+
+/// Obstacles farther away than this many contact thicknesses do not refine the cloth
+/// ([`NSO12`](crate::papers::NSO12)).
+const OBSTACLE_RANGE_IN_THICKNESSES: f64 = 10.0;
+
+impl Simulation {
+    /// Sizes and remeshes every garment at the current frame, then renews the moving cloth.
+    pub(super) fn refine(&mut self, clock: &mut StageClock, report: &mut FrameReport) {
+        let poses = self.obstacle_poses();
+        let obstacles = self.obstacles.moving(&poses, &poses, self.scene.step_time());
+        for index in 0..self.garments.len() {
+            let planes = clock.time(Stage::Sizing, || self.planes(index, &obstacles));
+            let base = clock.time(Stage::Sizing, || self.base_metric(index, &planes));
+            clock.time(Stage::View, || self.set_metric(index, base));
+            let done = clock.time(Stage::Remesh, || self.remesh(index, &obstacles));
+            if done.invalid_edges > 0 {
+                let name = &self.scene.garments[index].name;
+                report.warnings.push(format!(
+                    "garment {name:?}: {} edges stay too long at the limit of {} faces",
+                    done.invalid_edges,
+                    RemeshSettings::default().face_count_max
+                ));
+            }
+        }
+        clock.time(Stage::Remesh, || self.cloth = MovingCloth::new(&self.scene, &self.garments));
+    }
+
+    fn planes(&self, index: usize, obstacles: &[ObstacleMotion]) -> IdVec<NodeId, Option<Plane>> {
+        let range = OBSTACLE_RANGE_IN_THICKNESSES * self.scene.contact.thickness;
+        nearest_planes(self.garments[index].position.as_slice(), obstacles, range).into()
+    }
+
+    fn base_metric(
+        &self,
+        index: usize,
+        planes: &IdVec<NodeId, Option<Plane>>,
+    ) -> PerFace<SymTensor2> {
+        base_metric(&self.garments[index], &self.scene.garments[index].sizing, planes)
+    }
+
+    /// The view-dependent metric at the vertices, and the view factor of every face.
+    fn set_metric(&mut self, index: usize, base: PerFace<SymTensor2>) {
+        let garment = &self.scene.garments[index];
+        let windows: Vec<ViewerWindow> = match self.settings.sizing {
+            SizingMode::View => {
+                let ahead = garment.view.anticipation_frames;
+                let window = |path| ViewerWindow::new(path, f64::from(self.frame), ahead);
+                self.scene.viewers.iter().map(window).collect()
+            }
+            SizingMode::Adaptive | SizingMode::Uniform { .. } => Vec::new(),
+        };
+        let mesh = &mut self.garments[index];
+        let field =
+            view_field(mesh, &base, &windows, &garment.view, garment.two_sided, &garment.sizing);
+        mesh.metric = faces_to_vertices(mesh, &field.metric);
+        mesh.view_factor = field.factor;
+    }
+
+    fn remesh(&mut self, index: usize, obstacles: &[ObstacleMotion]) -> RemeshReport {
+        let settings = RemeshSettings {
+            aspect_min: self.scene.garments[index].sizing.aspect_min,
+            ..RemeshSettings::default()
+        };
+        let mesh = std::mem::take(&mut self.garments[index]);
+        let (mesh, report) = match obstacles.is_empty() {
+            true => remesh(mesh, &settings, &NoGuard),
+            false => remesh(mesh, &settings, &ObstacleGuard { obstacles }),
+        };
+        self.garments[index] = mesh;
+        report
+    }
+}
+
+/// Refines a mesh until no edge is longer than `edge_length` (m).
+pub(super) fn refine_uniformly(mesh: Mesh, edge_length: f64, aspect_min: f64) -> Mesh {
+    let mut mesh = mesh;
+    let metric = SymTensor2::isotropic(1.0 / (edge_length * edge_length));
+    mesh.metric = IdVec::filled(metric, mesh.vertex_count());
+    let settings = RemeshSettings { aspect_min, ..RemeshSettings::default() };
+    remesh(mesh, &settings, &NoGuard).0
+}
