@@ -1,0 +1,49 @@
+//! What a command may fail with, and the exit code that says so.
+
+use std::process::ExitCode;
+
+use super::interrupt::Signal;
+use crate::render::RenderError;
+use crate::run::RunError;
+use crate::scene::LoadError;
+use crate::sim::SimError;
+
+/// An error that is known to the exit code; everything else is 1.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    #[error("{0}")]
+    Usage(String),
+    #[error(transparent)]
+    Input(#[from] LoadError),
+    #[error(transparent)]
+    Run(#[from] RunError),
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    #[error(transparent)]
+    Simulation(#[from] SimError),
+    #[error("interrupted: {0}")]
+    Interrupted(&'static str, Signal),
+}
+
+impl Failure {
+    /// As CONTRACT says: 2 usage, 3 bad input, 4 no graphics adapter, 5 the simulation failed,
+    /// 130 and 143 interrupted.
+    fn exit_code(&self) -> u8 {
+        match self {
+            Failure::Usage(_) => 2,
+            Failure::Input(_) => 3,
+            Failure::Run(error) if error.is_bad_input() => 3,
+            Failure::Run(_) => 1,
+            Failure::Render(RenderError::NoAdapter { .. }) => 4,
+            Failure::Render(_) => 1,
+            Failure::Simulation(_) => 5,
+            Failure::Interrupted(_, signal) => signal.exit_code(),
+        }
+    }
+}
+
+/// The exit code of an error: that of the failure in its chain.
+pub fn exit_code(error: &anyhow::Error) -> ExitCode {
+    let known = error.chain().find_map(|cause| cause.downcast_ref::<Failure>());
+    ExitCode::from(known.map_or(1, Failure::exit_code))
+}
