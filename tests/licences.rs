@@ -49,7 +49,7 @@ impl<'a> Expression<'a> {
         Self { words, position: 0 }
     }
 
-    fn is_met(mut self, allows: &dyn Fn(&str) -> bool) -> bool {
+    fn met_by(mut self, allows: &dyn Fn(&str) -> bool) -> bool {
         let met = self.any(allows);
         assert_eq!(self.position, self.words.len(), "words left over in {:?}", self.words);
         met
@@ -138,7 +138,7 @@ fn every_package_may_be_given_away() {
             let name = package["name"].as_str().unwrap();
             let licence = package["license"].as_str().unwrap_or("none stated");
             let allows = |id: &str| ALLOWED.contains(&id) || EXCEPTIONS.contains(&(name, id));
-            let met = package["license"].is_string() && Expression::new(licence).is_met(&allows);
+            let met = package["license"].is_string() && Expression::new(licence).met_by(&allows);
             (!met).then(|| format!("{name}: {licence}"))
         })
         .collect();
@@ -147,7 +147,7 @@ fn every_package_may_be_given_away() {
 
 #[test]
 fn expressions_are_read_as_they_are_meant() {
-    let met = |text| Expression::new(text).is_met(&|id| ["MIT", "Zlib"].contains(&id));
+    let met = |text| Expression::new(text).met_by(&|id| ["MIT", "Zlib"].contains(&id));
     for text in [
         "MIT",
         "GPL-3.0 OR MIT",
