@@ -16,8 +16,7 @@ pub(super) const OBSTACLES_MAGIC: &[u8; 8] = b"SILKOBST";
 /// Raised when the content changes; older versions stay readable.
 pub(super) const STATE_VERSION: u32 = 1;
 
-/// zstd's own default: 3 to 4 times faster than the simulation's fastest frame, and higher levels
-/// save only a few percent of incompressible mantissas.
+/// zstd's own default: mantissas hardly compress, so that more effort would buy little.
 const COMPRESSION_LEVEL: i32 = 3;
 
 /// Bytes before the checksum; the checksum covers them and everything after itself.
