@@ -10,6 +10,7 @@ mod check;
 mod edit;
 mod id;
 mod measure;
+mod parts;
 mod walk;
 
 pub use build::{MeshError, RawMesh};
@@ -17,6 +18,7 @@ pub use check::Flaw;
 pub use edit::{Collapse, CollapseRefusal, FlipRefusal, MeshEditor};
 pub use id::{CornerId, FaceId, Id, IdVec, NodeId, VertexId};
 pub use measure::{aspect_ratio, signed_area};
+pub use parts::MeshParts;
 
 use glam::{DVec2, DVec3};
 

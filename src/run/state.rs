@@ -1,0 +1,225 @@
+//! A frame as bytes and back, bit for bit. `docs/run-folder.md` gives the layout.
+
+use std::sync::Arc;
+
+use super::StateError;
+use super::bytes::{ByteReader, ByteWriter};
+use crate::mesh::{Mesh, MeshParts, NodeOrigin};
+use crate::scene::Surface;
+use crate::sim::{Frame, FrameReport, StageSeconds};
+
+/// A frame's content, without the envelope.
+pub(super) fn frame_bytes(frame: &Frame) -> Vec<u8> {
+    let Frame { number, time, garments, obstacle_poses, report } = frame;
+    let mut writer = ByteWriter::default();
+    writer.put(*number);
+    writer.put(*time);
+    put_report(&mut writer, report);
+    writer.count(garments.len());
+    for garment in garments {
+        put_mesh(&mut writer, &garment.to_parts());
+    }
+    writer.count(obstacle_poses.len());
+    writer.items(obstacle_poses);
+    writer.into_bytes()
+}
+
+/// The frame in a content of version 1.
+pub(super) fn frame_from_bytes(bytes: &[u8]) -> Result<Frame, StateError> {
+    let mut reader = ByteReader::new(bytes);
+    let number = reader.get("frame number")?;
+    let time = reader.get("time")?;
+    let report = get_report(&mut reader)?;
+    let garment_count = reader.count("garment count")?;
+    let garments = (0..garment_count)
+        .map(|index| {
+            let parts = get_mesh(&mut reader)?;
+            let mesh =
+                Mesh::from_parts(parts).map_err(|source| StateError::Garment { index, source })?;
+            Ok(Arc::new(mesh))
+        })
+        .collect::<Result<_, StateError>>()?;
+    let pose_count = reader.count("obstacle count")?;
+    let obstacle_poses = reader.items("obstacle poses", pose_count)?;
+    reader.end()?;
+    Ok(Frame { number, time, garments, obstacle_poses, report })
+}
+
+fn put_report(writer: &mut ByteWriter, report: &FrameReport) {
+    // Exhaustive, so that a new field cannot be forgotten here.
+    let FrameReport {
+        stages,
+        cpu_seconds,
+        view_factor_min,
+        view_factor_mean,
+        intersections,
+        steps_taken,
+        largest_stretch,
+        warnings,
+    } = report;
+    writer.put(stages.entries().map(|(_, seconds)| seconds));
+    writer.put([*cpu_seconds, *view_factor_min, *view_factor_mean, *largest_stretch]);
+    writer.put(*steps_taken);
+    writer.put(u8::from(intersections.is_some()));
+    writer.put(intersections.unwrap_or(0) as u64);
+    writer.count(warnings.len());
+    for warning in warnings {
+        writer.text(warning);
+    }
+}
+
+fn get_report(reader: &mut ByteReader) -> Result<FrameReport, StateError> {
+    let [obstacles, proximity, dynamics, collision, sizing, view, remesh, untangle, other] =
+        reader.get("stage seconds")?;
+    let stages = StageSeconds {
+        obstacles,
+        proximity,
+        dynamics,
+        collision,
+        sizing,
+        view,
+        remesh,
+        untangle,
+        other,
+    };
+    let [cpu_seconds, view_factor_min, view_factor_mean, largest_stretch] =
+        reader.get("frame measures")?;
+    let steps_taken = reader.get("step count")?;
+    let counted = reader.get::<u8>("intersection flag")?;
+    let intersections: u64 = reader.get("intersection count")?;
+    let warnings = get_warnings(reader)?;
+    Ok(FrameReport {
+        stages,
+        cpu_seconds,
+        view_factor_min,
+        view_factor_mean,
+        intersections: (counted != 0).then_some(intersections as usize),
+        steps_taken,
+        largest_stretch,
+        warnings,
+    })
+}
+
+fn get_warnings(reader: &mut ByteReader) -> Result<Vec<String>, StateError> {
+    let count = reader.count("warning count")?;
+    (0..count)
+        .map(|index| {
+            let length = reader.count("warning length")?;
+            let text = std::str::from_utf8(reader.take("warning", length)?);
+            text.map(str::to_owned).map_err(|_| StateError::Text { index })
+        })
+        .collect()
+}
+
+fn put_mesh(writer: &mut ByteWriter, parts: &MeshParts) {
+    writer.count(parts.position.len());
+    writer.count(parts.material.len());
+    writer.count(parts.vertices_of_face.len());
+    writer.items(&parts.position);
+    writer.items(&parts.velocity);
+    for origin in &parts.node_origin {
+        writer.put(origin_kind(*origin));
+    }
+    for origin in &parts.node_origin {
+        writer.put(origin.input_index().unwrap_or(0));
+    }
+    writer.items(&parts.corner_of_node);
+    writer.items(&parts.node_of_vertex);
+    writer.items(&parts.material);
+    writer.items(&parts.metric);
+    writer.items(&parts.vertices_of_face);
+    writer.items(&parts.view_factor);
+    writer.items(&parts.opposite);
+    writer.items(&parts.rest_angle);
+}
+
+fn get_mesh(reader: &mut ByteReader) -> Result<MeshParts, StateError> {
+    let nodes = reader.count("node count")?;
+    let vertices = reader.count("vertex count")?;
+    let faces = reader.count("face count")?;
+    let corners = faces.saturating_mul(3);
+    Ok(MeshParts {
+        position: reader.items("node positions", nodes)?,
+        velocity: reader.items("node velocities", nodes)?,
+        node_origin: get_origins(reader, nodes)?,
+        corner_of_node: reader.items("corners of nodes", nodes)?,
+        node_of_vertex: reader.items("nodes of vertices", vertices)?,
+        material: reader.items("material positions", vertices)?,
+        metric: reader.items("vertex metrics", vertices)?,
+        vertices_of_face: reader.items("faces", faces)?,
+        view_factor: reader.items("view factors", faces)?,
+        opposite: reader.items("opposite corners", corners)?,
+        rest_angle: reader.items("rest angles", corners)?,
+    })
+}
+
+const KIND_SPLIT: u8 = 0;
+const KIND_INPUT: u8 = 1;
+const KIND_KEPT: u8 = 2;
+
+fn origin_kind(origin: NodeOrigin) -> u8 {
+    match origin {
+        NodeOrigin::Split => KIND_SPLIT,
+        NodeOrigin::Input { .. } => KIND_INPUT,
+        NodeOrigin::Kept { .. } => KIND_KEPT,
+    }
+}
+
+fn get_origins(reader: &mut ByteReader, nodes: usize) -> Result<Vec<NodeOrigin>, StateError> {
+    let kinds: Vec<u8> = reader.items("node origin kinds", nodes)?;
+    let indices: Vec<u32> = reader.items("node origin indices", nodes)?;
+    let origin = |(&kind, &index): (&u8, &u32)| match kind {
+        KIND_SPLIT => Ok(NodeOrigin::Split),
+        KIND_INPUT => Ok(NodeOrigin::Input { index }),
+        KIND_KEPT => Ok(NodeOrigin::Kept { index }),
+        _ => Err(StateError::Value {
+            what: "kind of a node's origin",
+            found: u64::from(kind),
+            expected: "0, 1 or 2",
+        }),
+    };
+    kinds.iter().zip(&indices).map(origin).collect()
+}
+
+/// The obstacles at rest, without the envelope.
+pub(super) fn obstacle_bytes(obstacles: &[Arc<Surface>]) -> Vec<u8> {
+    let mut writer = ByteWriter::default();
+    writer.count(obstacles.len());
+    for surface in obstacles {
+        writer.count(surface.positions.len());
+        writer.count(surface.triangles.len());
+        writer.items(&surface.positions);
+        writer.items(&surface.triangles);
+    }
+    writer.into_bytes()
+}
+
+/// The obstacles in a content of version 1.
+pub(super) fn obstacles_from_bytes(bytes: &[u8]) -> Result<Vec<Arc<Surface>>, StateError> {
+    let mut reader = ByteReader::new(bytes);
+    let obstacle_count = reader.count("obstacle count")?;
+    let obstacles = (0..obstacle_count)
+        .map(|index| {
+            let points = reader.count("point count")?;
+            let triangles = reader.count("triangle count")?;
+            let surface = Surface {
+                positions: reader.items("points", points)?,
+                triangles: reader.items("triangles", triangles)?,
+            };
+            check_triangles(index, &surface)?;
+            Ok(Arc::new(surface))
+        })
+        .collect::<Result<_, StateError>>()?;
+    reader.end()?;
+    Ok(obstacles)
+}
+
+fn check_triangles(obstacle: usize, surface: &Surface) -> Result<(), StateError> {
+    let count = surface.positions.len();
+    for (triangle, corners) in surface.triangles.iter().enumerate() {
+        if let Some(&point) = corners.iter().find(|&&point| point as usize >= count) {
+            return Err(StateError::Triangle { obstacle, triangle, point, count });
+        }
+    }
+    Ok(())
+}
