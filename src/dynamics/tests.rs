@@ -377,3 +377,31 @@ fn the_solver_of_an_equal_mesh_needs_no_new_analysis() {
     system.step_frozen(&mut state, &StepForces::NONE, DT).unwrap();
     assert_eq!(system.analysis_count(), 1);
 }
+
+#[test]
+fn a_sheet_hung_by_two_corners_pulls_with_its_weight() {
+    let (mut system, mut state) = system_of(&[&sheet(8, 0.4, 0.2)], 0.02);
+    let gravity = DVec3::new(0.0, 0.0, -9.81);
+    let handles =
+        [72, 80].map(|node| HandleSpring { node, target: state.position[node], stiffness: 1e3 });
+    let forces = StepForces { gravity, air: Air::default(), handles: &handles, contacts: &[] };
+    for _ in 0..800 {
+        system.step_frozen(&mut state, &forces, DT).unwrap();
+    }
+    let held: DVec3 = handles.iter().map(|h| h.force(state.position[h.node])).sum();
+    let weight: f64 = system.masses().iter().sum::<f64>() * 9.81;
+    assert!((held - weight * DVec3::Z).length() < 0.05 * weight, "{held} N hold {weight} N");
+}
+
+#[test]
+fn a_badly_crumpled_sheet_calms_down() {
+    let (mut system, mut state) = system_of(&[&sheet(8, 0.4, 0.2)], 0.0);
+    let mut random = Random::new(12);
+    state.position.iter_mut().for_each(|x| *x += random.vector() * 0.1);
+    let start = system.potential_energy(&state);
+    for _ in 0..400 {
+        system.step_frozen(&mut state, &StepForces::NONE, DT).unwrap();
+    }
+    let left = system.potential_energy(&state) + system.kinetic_energy(&state);
+    assert!(left < 0.1 * start, "{left} J of {start} J are left");
+}
