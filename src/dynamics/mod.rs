@@ -12,6 +12,7 @@ pub mod contact;
 pub mod damping;
 pub mod handles;
 pub mod matrix;
+mod permuted;
 pub mod solve;
 mod step;
 pub mod stretch;
