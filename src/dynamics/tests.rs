@@ -405,3 +405,22 @@ fn a_badly_crumpled_sheet_calms_down() {
     let left = system.potential_energy(&state) + system.kinetic_energy(&state);
     assert!(left < 0.1 * start, "{left} J of {start} J are left");
 }
+
+#[test]
+fn a_scene_without_garments_steps() {
+    let (mut system, mut state) = system_of(&[], 0.0);
+    system.step_frozen(&mut state, &StepForces::NONE, DT).unwrap();
+    assert_eq!(state, StepState::default());
+}
+
+#[test]
+fn equal_steps_give_equal_bits() {
+    let stepped = || {
+        let (mut system, mut state) = two_garments(0.01, 13);
+        for _ in 0..5 {
+            system.step_frozen(&mut state, &StepForces::NONE, DT).unwrap();
+        }
+        state
+    };
+    assert_eq!(stepped(), stepped());
+}
