@@ -1,19 +1,37 @@
 //! How cloth moves: energies, their derivatives, and one implicit step.
-#[allow(missing_docs)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactPoint {
-    pub nodes: [(usize, f64); 4],
-    pub normal: glam::DVec3,
-    pub gap: f64,
-    pub surface_velocity: glam::DVec3,
-    pub stiffness: f64,
-    pub friction: f64,
-}
-impl ContactPoint {
-    #[allow(missing_docs)]
-    pub fn weighted(nodes: &[(usize, f64)]) -> [(usize, f64); 4] {
-        let mut padded = [(0, 0.0); 4];
-        padded[..nodes.len()].copy_from_slice(nodes);
-        padded
-    }
+//!
+//! A step is one linearised backward Euler step ([`BW98`](crate::papers::BW98)):
+//! (M + h^2 K + h beta K_m + h D) dv = h (f - (h K + beta K_m) v), then v += dv, x += h v.
+//! [`System`] holds what stays while the meshes stay; [`stretch`], [`bending`], [`wind`],
+//! [`handles`] and [`contact`] each state a force and a positive semi-definite tangent, so that the
+//! matrix is positive definite whatever the state; [`solve`] factorises it.
+
+mod assembly;
+pub mod bending;
+pub mod contact;
+pub mod damping;
+pub mod handles;
+pub mod matrix;
+mod permuted;
+pub mod solve;
+mod step;
+pub mod stretch;
+mod system;
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;
+pub mod wind;
+
+pub use contact::ContactPoint;
+pub use handles::HandleSpring;
+pub use solve::{LinearSolver, SolveError};
+pub use step::{StepError, StepForces, StepOutcome, StepState};
+pub use system::System;
+
+use glam::{DMat3, DVec3};
+
+/// a b^T.
+fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }

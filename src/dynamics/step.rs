@@ -1,0 +1,150 @@
+//! One implicit step: all of it happens, or nothing.
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::contact::ContactPoint;
+use super::handles::HandleSpring;
+use super::solve::SolveError;
+use super::system::System;
+use crate::mesh::Mesh;
+use crate::scene::Air;
+
+/// What a step changes, by global node number.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StepState {
+    /// (m, world).
+    pub position: Vec<DVec3>,
+    /// (m/s, world).
+    pub velocity: Vec<DVec3>,
+}
+
+/// What acts on the cloth from outside during a step.
+#[derive(Clone, Copy, Debug)]
+pub struct StepForces<'a> {
+    /// Acceleration (m/s^2).
+    pub gravity: DVec3,
+    pub air: Air,
+    /// Their targets are those of the end of the step.
+    pub handles: &'a [HandleSpring],
+    /// Those that may close during the step.
+    pub contacts: &'a [ContactPoint],
+}
+
+/// How a step went.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StepOutcome {
+    /// Hinges without an angle, which contributed nothing: one of their faces has collapsed.
+    pub degenerate_hinges: usize,
+    /// Contacts that pushed.
+    pub active_contacts: usize,
+}
+
+/// Why a step was not taken. A shorter step may be.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum StepError {
+    #[error("the {what} of node {node} is not finite")]
+    NonFinite { what: &'static str, node: usize },
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
+
+impl StepForces<'_> {
+    /// In a vacuum, without gravity, handles and contacts.
+    pub const NONE: Self = Self {
+        gravity: DVec3::ZERO,
+        air: Air { density: 0.0, velocity: DVec3::ZERO, tangential_drag: 0.0 },
+        handles: &[],
+        contacts: &[],
+    };
+}
+
+impl StepState {
+    /// Positions and velocities of all garments.
+    pub fn gathered(meshes: &[&Mesh]) -> Self {
+        let mut state = Self::default();
+        for mesh in meshes {
+            state.position.extend(mesh.position.iter());
+            state.velocity.extend(mesh.velocity.iter());
+        }
+        state
+    }
+
+    /// Writes positions and velocities back to the meshes it was gathered from.
+    ///
+    /// # Panics
+    /// If the meshes have other node counts by now.
+    pub fn scatter(&self, meshes: &mut [&mut Mesh]) {
+        let mut start = 0;
+        for mesh in meshes {
+            let end = start + mesh.node_count();
+            mesh.position.as_mut_slice().copy_from_slice(&self.position[start..end]);
+            mesh.velocity.as_mut_slice().copy_from_slice(&self.velocity[start..end]);
+            start = end;
+        }
+        assert_eq!(start, self.position.len(), "the state has as many nodes as the meshes");
+    }
+
+    fn check_finite(&self) -> Result<(), StepError> {
+        finite("position", &self.position)?;
+        finite("velocity", &self.velocity)
+    }
+}
+
+impl System {
+    /// Advances by `dt` (s): one linearised backward Euler step at the stiffness of its start.
+    ///
+    /// # Errors
+    /// If something is not finite, or the matrix not positive definite. The state is then as it was.
+    ///
+    /// # Panics
+    /// If `dt` is not positive, or the state has another node count than the system.
+    pub fn step(
+        &mut self,
+        state: &mut StepState,
+        forces: &StepForces<'_>,
+        dt: f64,
+    ) -> Result<StepOutcome, StepError> {
+        state.check_finite()?;
+        self.freeze_stiffness(&state.position);
+        self.step_frozen(state, forces, dt)
+    }
+
+    /// [`step`](Self::step) at the stiffness last frozen.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    ///
+    /// # Panics
+    /// As [`step`](Self::step).
+    pub fn step_frozen(
+        &mut self,
+        state: &mut StepState,
+        forces: &StepForces<'_>,
+        dt: f64,
+    ) -> Result<StepOutcome, StepError> {
+        assert!(dt > 0.0, "a step takes time, not {dt} s");
+        assert_eq!(state.position.len(), self.node_count(), "positions are those of the system");
+        assert_eq!(state.velocity.len(), self.node_count(), "velocities are those of the system");
+        state.check_finite()?;
+        let outcome = self.assemble(state, forces, dt);
+        finite("force", &self.right_side)?;
+        self.solver.factorize(&self.matrix)?;
+        self.solver.solve(&mut self.right_side);
+        // Checked before anything is written.
+        finite("velocity after the step", &self.right_side)?;
+        for ((x, v), dv) in state.position.iter_mut().zip(&mut state.velocity).zip(&self.right_side)
+        {
+            *v += dv;
+            *x += *v * dt;
+        }
+        Ok(outcome)
+    }
+}
+
+fn finite(what: &'static str, values: &[DVec3]) -> Result<(), StepError> {
+    match values.iter().position(|value| !value.is_finite()) {
+        Some(node) => Err(StepError::NonFinite { what, node }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,282 @@
+//! Stretch: the membrane energy of a face, orthotropic and as stiff as was measured.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::damping::Lead;
+use super::outer;
+use crate::math::{Mat3x2, SymTensor2};
+use crate::scene::StretchStiffness;
+
+/// What a face's membrane depends on besides positions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Membrane {
+    /// Global numbers, descending, so that the block of corners k <= l lies in the lower triangle.
+    pub nodes: [u32; 3],
+    /// Material gradients of the corners' shape functions (1/m).
+    pub gradients: [DVec2; 3],
+    /// In material space (m^2).
+    pub area: f64,
+}
+
+impl Membrane {
+    /// The sum over i of value_i g_i^T: dx/du of positions, dv/du of velocities.
+    pub fn gradient_of(&self, values: &[DVec3]) -> Mat3x2 {
+        Mat3x2::from_gradients(self.nodes.map(|n| values[n as usize]), self.gradients)
+    }
+
+    /// A psi(E) (J).
+    pub fn energy(&self, stiffness: StretchStiffness, positions: &[DVec3]) -> f64 {
+        self.area * energy_density(stiffness, green_strain(self.gradient_of(positions)))
+    }
+}
+
+/// E = 1/2 (F^T F - I).
+pub fn green_strain(deformation: Mat3x2) -> SymTensor2 {
+    (deformation.gram() - SymTensor2::IDENTITY) * 0.5
+}
+
+/// psi = 1/2 (k_uu E_uu^2 + k_vv E_vv^2) + k_uv E_uu E_vv + k_shear E_uv^2 (J/m^2), the stiffness
+/// frozen ([`WOR11`](crate::papers::WOR11)).
+pub fn energy_density(k: StretchStiffness, e: SymTensor2) -> f64 {
+    0.5 * (k.uu * e.xx * e.xx + k.vv * e.yy * e.yy) + k.uv * e.xx * e.yy + k.shear * e.xy * e.xy
+}
+
+/// S = dpsi/dE (N/m): S_uu = k_uu E_uu + k_uv E_vv, S_vv = k_vv E_vv + k_uv E_uu,
+/// S_uv = k_shear E_uv. As E_uv stands for both off-diagonal entries, S_uv is half of dpsi/dE_uv.
+pub fn stress(k: StretchStiffness, e: SymTensor2) -> SymTensor2 {
+    SymTensor2 { xx: k.uu * e.xx + k.uv * e.yy, xy: k.shear * e.xy, yy: k.vv * e.yy + k.uv * e.xx }
+}
+
+/// The nearest stiffness whose energy has a lower bound: diagonal entries at least 0 and
+/// |k_uv| <= sqrt(k_uu k_vv).
+pub fn bounded(k: StretchStiffness) -> StretchStiffness {
+    let (uu, vv) = (k.uu.max(0.0), k.vv.max(0.0));
+    let limit = (uu * vv).sqrt();
+    StretchStiffness { uu, vv, uv: k.uv.clamp(-limit, limit), shear: k.shear.max(0.0) }
+}
+
+/// Forces and tangent stiffness of a face, linearised where the step starts.
+///
+/// The second derivative of A psi by corners i and j is
+/// A [ sum_pq C_pq b_p(i) b_q(j)^T + (g_i^T S g_j) I ] with b_p(i) the gradient of strain component
+/// p. Its projection to positive semi-definite takes no 9x9 eigenvalues:
+/// - The first part is B^T C B with the stiffness C constant: semi-definite if C is ([`bounded`]).
+/// - The second is (G^T S G) x I. With S replaced by S+, its part with non-negative eigenvalues, it
+///   is semi-definite as well. That drops exactly what compression takes away, and leaves the
+///   tangent exact wherever both principal stresses pull.
+#[derive(Clone, Copy, Debug)]
+pub struct MembraneTangent {
+    area: f64,
+    deformation: Mat3x2,
+    stress: SymTensor2,
+    pulling_stress: SymTensor2,
+    stiffness: StretchStiffness,
+    squares: [DMat3; 4],
+}
+
+impl MembraneTangent {
+    pub fn new(area: f64, k: StretchStiffness, deformation: Mat3x2) -> Self {
+        let stress = stress(k, green_strain(deformation));
+        let (fu, fv) = (deformation.x_axis, deformation.y_axis);
+        Self {
+            area,
+            deformation,
+            stress,
+            pulling_stress: pulling_part(stress),
+            stiffness: bounded(k),
+            squares: [outer(fu, fu), outer(fv, fv), outer(fu, fv), outer(fv, fu)],
+        }
+    }
+
+    /// -A dpsi/dF = -A F S (N m): the force on a corner is this times the corner's gradient.
+    pub fn force_density(&self) -> Mat3x2 {
+        times(self.deformation, self.stress, -self.area)
+    }
+
+    /// What `lead` adds to [`force_density`](Self::force_density) at velocity gradient dF/dt:
+    /// -A [ lead_material F C(dE/dt) + lead_geometric dF/dt S+ ].
+    pub fn led_force_density(&self, velocity_gradient: Mat3x2, lead: Lead) -> Mat3x2 {
+        let strain_rate = strain_rate(self.deformation, velocity_gradient);
+        let rate = stress(self.stiffness, strain_rate);
+        let material = times(self.deformation, rate, -self.area * lead.material);
+        let geometric = times(velocity_gradient, self.pulling_stress, -self.area * lead.geometric);
+        Mat3x2 {
+            x_axis: material.x_axis + geometric.x_axis,
+            y_axis: material.y_axis + geometric.y_axis,
+        }
+    }
+
+    /// The block of corners with gradients g_i and g_j: material part times `material`, geometric
+    /// part times `geometric` (N/m if both are 1).
+    pub fn block(&self, gi: DVec2, gj: DVec2, material: f64, geometric: f64) -> DMat3 {
+        let k = self.stiffness;
+        let shear = 0.5 * k.shear;
+        let scale = self.area * material;
+        let [uu, vv, uv, vu] = self.squares;
+        uu * (scale * (k.uu * gi.x * gj.x + shear * gi.y * gj.y))
+            + vv * (scale * (k.vv * gi.y * gj.y + shear * gi.x * gj.x))
+            + uv * (scale * (k.uv * gi.x * gj.y + shear * gi.y * gj.x))
+            + vu * (scale * (k.uv * gi.y * gj.x + shear * gi.x * gj.y))
+            + DMat3::from_diagonal(DVec3::splat(
+                self.area * geometric * self.pulling_stress.bilinear_form(gi, gj),
+            ))
+    }
+}
+
+/// dE/dt = 1/2 (F^T dF/dt + dF/dt^T F).
+fn strain_rate(f: Mat3x2, rate: Mat3x2) -> SymTensor2 {
+    SymTensor2 {
+        xx: f.x_axis.dot(rate.x_axis),
+        xy: 0.5 * (f.x_axis.dot(rate.y_axis) + f.y_axis.dot(rate.x_axis)),
+        yy: f.y_axis.dot(rate.y_axis),
+    }
+}
+
+/// The tensor without its negative eigenvalues.
+fn pulling_part(stress: SymTensor2) -> SymTensor2 {
+    if stress.xx >= 0.0 && stress.determinant() >= 0.0 {
+        return stress;
+    }
+    stress.map_eigenvalues(|value| value.max(0.0))
+}
+
+/// s A S.
+fn times(a: Mat3x2, s: SymTensor2, scale: f64) -> Mat3x2 {
+    Mat3x2 {
+        x_axis: (a.x_axis * s.xx + a.y_axis * s.xy) * scale,
+        y_axis: (a.x_axis * s.xy + a.y_axis * s.yy) * scale,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, SMatrix};
+
+    use super::*;
+    use crate::dynamics::testing::Random;
+
+    const STIFFNESS: StretchStiffness =
+        StretchStiffness { uu: 900.0, uv: 250.0, vv: 600.0, shear: 300.0 };
+    const PLAIN: (f64, f64) = (1.0, 1.0);
+
+    fn membrane() -> Membrane {
+        Membrane {
+            nodes: [2, 1, 0],
+            gradients: [DVec2::new(8.0, 3.0), DVec2::new(-9.0, 2.0), DVec2::new(1.0, -5.0)],
+            area: 0.012,
+        }
+    }
+
+    /// Corners whose deformation gradient is the given one.
+    fn positions(f: Mat3x2) -> [DVec3; 3] {
+        // Two corners suffice: the third stays at the origin, and its gradient is not used.
+        let [_, gb, gc] = membrane().gradients;
+        let inverse = glam::DMat2::from_cols(gb, gc).transpose().inverse();
+        let corner = |k: usize| f.mul_vec2(inverse.col(k));
+        [corner(1), corner(0), DVec3::ZERO]
+    }
+
+    fn hessian(x: &[DVec3]) -> SMatrix<f64, 9, 9> {
+        let face = membrane();
+        let tangent = MembraneTangent::new(face.area, STIFFNESS, face.gradient_of(x));
+        let mut matrix = SMatrix::<f64, 9, 9>::zeros();
+        for (k, gi) in face.gradients.into_iter().enumerate() {
+            for (l, gj) in face.gradients.into_iter().enumerate() {
+                let block = tangent.block(gi, gj, PLAIN.0, PLAIN.1).to_cols_array();
+                matrix
+                    .fixed_view_mut::<3, 3>(3 * k, 3 * l)
+                    .copy_from(&Matrix3::from_iterator(block));
+            }
+        }
+        matrix
+    }
+
+    fn forces(x: &[DVec3]) -> [DVec3; 3] {
+        let face = membrane();
+        let tangent = MembraneTangent::new(face.area, STIFFNESS, face.gradient_of(x));
+        face.gradients.map(|g| tangent.force_density().mul_vec2(g))
+    }
+
+    #[test]
+    fn force_is_minus_the_gradient_of_the_energy() {
+        let mut random = Random::new(1);
+        for _ in 0..50 {
+            let x = [0; 3].map(|_| random.vector() * 0.2);
+            for (k, force) in forces(&x).into_iter().enumerate() {
+                for axis in DVec3::AXES {
+                    let energy = |step: f64| {
+                        let mut moved = x;
+                        moved[2 - k] += axis * step;
+                        membrane().energy(STIFFNESS, &moved)
+                    };
+                    let difference = (energy(1e-6) - energy(-1e-6)) / 2e-6;
+                    let scale = 1.0 + force.length();
+                    assert!((force.dot(axis) + difference).abs() < 1e-6 * scale);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn tangent_is_the_derivative_of_the_force_in_tension() {
+        let stretched =
+            Mat3x2 { x_axis: DVec3::new(1.10, 0.05, 0.02), y_axis: DVec3::new(-0.03, 1.05, 0.10) };
+        let x = positions(stretched);
+        let hessian = hessian(&x);
+        for node in 0..3 {
+            for axis in 0..3 {
+                let at = |step: f64| {
+                    let mut moved = x;
+                    moved[2 - node][axis] += step;
+                    forces(&moved)
+                };
+                let (plus, minus) = (at(1e-6), at(-1e-6));
+                for k in 0..3 {
+                    let difference = (minus[k] - plus[k]) / 2e-6;
+                    for row in 0..3 {
+                        let exact = hessian[(3 * k + row, 3 * node + axis)];
+                        assert!((difference[row] - exact).abs() < 1e-5 * hessian.norm());
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn tangent_is_positive_semi_definite_everywhere() {
+        let mut random = Random::new(2);
+        for _ in 0..200 {
+            let x = [0; 3].map(|_| random.vector() * 0.15);
+            let matrix = hessian(&x);
+            let least = matrix.symmetric_eigenvalues().min();
+            assert!(least > -1e-10 * matrix.norm(), "eigenvalue {least}");
+        }
+    }
+
+    #[test]
+    fn led_force_is_minus_the_tangent_times_velocity() {
+        let mut random = Random::new(3);
+        let face = membrane();
+        let x = [0; 3].map(|_| random.vector() * 0.15);
+        let v = [0; 3].map(|_| random.vector());
+        let lead = Lead { material: 0.7, geometric: 0.2 };
+        let tangent = MembraneTangent::new(face.area, STIFFNESS, face.gradient_of(&x));
+        let density = tangent.led_force_density(face.gradient_of(&v), lead);
+        for gi in face.gradients {
+            let expected: DVec3 = (0..3)
+                .map(|l| {
+                    let block = tangent.block(gi, face.gradients[l], lead.material, lead.geometric);
+                    block * -v[2 - l]
+                })
+                .sum();
+            assert!((density.mul_vec2(gi) - expected).length() < 1e-10 * expected.length());
+        }
+    }
+
+    #[test]
+    fn a_coupling_beyond_the_bound_is_cut_to_it() {
+        let cut = bounded(StretchStiffness { uu: 4.0, uv: 9.0, vv: 1.0, shear: -1.0 });
+        assert_eq!(cut, StretchStiffness { uu: 4.0, uv: 2.0, vv: 1.0, shear: 0.0 });
+        assert_eq!(bounded(STIFFNESS), STIFFNESS);
+    }
+}

@@ -1,0 +1,232 @@
+//! What a step needs to know of the meshes, laid out for it once per topology.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::bending::{Hinge, dihedral_angle};
+use super::matrix::{BlockMatrix, Pattern};
+use super::solve::LinearSolver;
+use super::step::StepState;
+use super::stretch::Membrane;
+use crate::mesh::{CornerId, FaceId, Id, Mesh};
+use crate::scene::{Fabric, StretchStiffness};
+
+/// All garments of a scene as one system of nodes, numbered through garment after garment.
+///
+/// Valid while the meshes keep their topology and material positions. Elements are arrays of small
+/// records, for a step reads each record whole.
+#[derive(Debug)]
+pub struct System {
+    pub(super) garments: Vec<GarmentRanges>,
+    /// Per node (kg).
+    pub(super) masses: Vec<f64>,
+    pub(super) membranes: Vec<Membrane>,
+    pub(super) membrane_slots: Vec<[u32; 6]>,
+    pub(super) hinges: Vec<Hinge>,
+    pub(super) hinge_slots: Vec<HingeSlots>,
+    pub(super) frozen: FrozenStiffness,
+    pub(super) matrix: BlockMatrix,
+    pub(super) right_side: Vec<DVec3>,
+    pub(super) solver: LinearSolver,
+}
+
+/// A garment's share of the arrays.
+#[derive(Clone, Debug)]
+pub(super) struct GarmentRanges {
+    pub fabric: Fabric,
+    pub nodes: Range<usize>,
+    pub membranes: Range<usize>,
+    pub hinges: Range<usize>,
+}
+
+/// Where a hinge's blocks go.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HingeSlots {
+    /// The hinge's node positions by descending node number.
+    pub descending: [u8; 4],
+    pub slots: [u32; 10],
+}
+
+/// Stiffness of every element, as it was when last frozen.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FrozenStiffness {
+    /// Per membrane.
+    pub stretch: Vec<StretchStiffness>,
+    /// Per hinge (N m).
+    pub bending: Vec<f64>,
+}
+
+impl System {
+    /// A system of one fabric per mesh, its stiffness frozen at the meshes' positions.
+    ///
+    /// # Panics
+    /// If there are not as many fabrics as meshes.
+    pub fn new(meshes: &[&Mesh], fabrics: &[&Fabric]) -> Self {
+        let mut system = Self::unfrozen(meshes, fabrics);
+        system.freeze_stiffness(&StepState::gathered(meshes).position);
+        system
+    }
+
+    /// A system without any stiffness yet.
+    pub(super) fn unfrozen(meshes: &[&Mesh], fabrics: &[&Fabric]) -> Self {
+        assert_eq!(meshes.len(), fabrics.len(), "every garment has one mesh and one fabric");
+        let empty = Arc::new(Pattern::from_pairs(0, std::iter::empty()));
+        let mut system = Self {
+            garments: Vec::new(),
+            masses: Vec::new(),
+            membranes: Vec::new(),
+            membrane_slots: Vec::new(),
+            hinges: Vec::new(),
+            hinge_slots: Vec::new(),
+            frozen: FrozenStiffness::default(),
+            matrix: BlockMatrix::zero(empty),
+            right_side: Vec::new(),
+            solver: LinearSolver::default(),
+        };
+        for (mesh, fabric) in meshes.iter().zip(fabrics) {
+            system.append(mesh, fabric);
+        }
+        system.right_side = vec![DVec3::ZERO; system.node_count()];
+        system.set_pattern(&[]);
+        system
+    }
+
+    /// The system with another one's solver: where the pattern is the same, its analysis is kept.
+    pub fn with_solver(mut self, solver: LinearSolver) -> Self {
+        self.solver = solver;
+        self
+    }
+
+    pub fn into_solver(self) -> LinearSolver {
+        self.solver
+    }
+
+    pub fn node_count(&self) -> usize {
+        self.masses.len()
+    }
+
+    /// Global numbers of a garment's nodes.
+    pub fn nodes_of(&self, garment: usize) -> Range<usize> {
+        self.garments[garment].nodes.clone()
+    }
+
+    /// Per node: density times a third of the material area of the faces around it (kg).
+    pub fn masses(&self) -> &[f64] {
+        &self.masses
+    }
+
+    /// How often a pattern had to be analysed.
+    pub fn analysis_count(&self) -> usize {
+        self.solver.analysis_count()
+    }
+
+    /// Sets every element's stiffness to what the fabrics say of a deformation.
+    pub fn freeze_stiffness(&mut self, positions: &[DVec3]) {
+        let FrozenStiffness { stretch, bending } = &mut self.frozen;
+        stretch.clear();
+        bending.clear();
+        for garment in &self.garments {
+            let fabric = &garment.fabric;
+            stretch.extend(
+                self.membranes[garment.membranes.clone()]
+                    .iter()
+                    .map(|face| fabric.stretch_stiffness(face.gradient_of(positions))),
+            );
+            bending.extend(self.hinges[garment.hinges.clone()].iter().map(|hinge| {
+                // A hinge without an angle has no force either, whatever its stiffness.
+                let angle = dihedral_angle(hinge.corners(positions)).unwrap_or(0.0);
+                hinge.stiffness(angle, |edge, curve| fabric.bending_stiffness(edge, curve))
+            }));
+        }
+    }
+
+    /// Stretch and bending at the stiffness last frozen (J).
+    pub fn potential_energy(&self, state: &StepState) -> f64 {
+        let positions = &state.position;
+        let stretch = self.membranes.iter().zip(&self.frozen.stretch);
+        let bending = self.hinges.iter().zip(&self.frozen.bending);
+        stretch.map(|(face, &k)| face.energy(k, positions)).sum::<f64>()
+            + bending.map(|(hinge, &k)| hinge.energy(k, positions)).sum::<f64>()
+    }
+
+    /// 1/2 sum m v^2 (J).
+    pub fn kinetic_energy(&self, state: &StepState) -> f64 {
+        let moving = self.masses.iter().zip(&state.velocity);
+        moving.map(|(mass, v)| 0.5 * mass * v.length_squared()).sum()
+    }
+
+    /// Gives the matrix blocks for all elements and for `extra` pairs of nodes.
+    pub(super) fn set_pattern(&mut self, extra: &[[u32; 2]]) {
+        let faces = self.membranes.iter().flat_map(|f| {
+            let [a, b, c] = f.nodes;
+            [[a, b], [b, c], [a, c]]
+        });
+        // A hinge's other pairs are edges of its two faces.
+        let across = self.hinges.iter().map(|h| [h.nodes[2], h.nodes[3]]);
+        let pairs = faces.chain(across).chain(extra.iter().copied());
+        let pattern = Arc::new(Pattern::from_pairs(self.node_count(), pairs));
+        self.membrane_slots =
+            self.membranes.iter().map(|face| pattern.clique_slots(face.nodes)).collect();
+        self.hinge_slots =
+            self.hinges.iter().map(|hinge| HingeSlots::new(hinge, &pattern)).collect();
+        self.matrix = BlockMatrix::zero(pattern);
+    }
+
+    fn append(&mut self, mesh: &Mesh, fabric: &Fabric) {
+        let offset = self.node_count();
+        let (first_membrane, first_hinge) = (self.membranes.len(), self.hinges.len());
+        let density = fabric.density();
+        self.masses.extend(mesh.node_areas().iter().map(|area| density * area));
+        self.membranes.extend(mesh.face_ids().map(|face| membrane(mesh, face, offset)));
+        self.hinges.extend(mesh.edges().filter_map(|corner| hinge(mesh, corner, offset)));
+        self.garments.push(GarmentRanges {
+            fabric: fabric.clone(),
+            nodes: offset..self.node_count(),
+            membranes: first_membrane..self.membranes.len(),
+            hinges: first_hinge..self.hinges.len(),
+        });
+    }
+}
+
+impl HingeSlots {
+    fn new(hinge: &Hinge, pattern: &Pattern) -> Self {
+        let mut descending = [0u8, 1, 2, 3];
+        descending.sort_unstable_by_key(|&k| std::cmp::Reverse(hinge.nodes[k as usize]));
+        let nodes = descending.map(|k| hinge.nodes[k as usize]);
+        Self { descending, slots: pattern.clique_slots(nodes) }
+    }
+}
+
+fn membrane(mesh: &Mesh, face: FaceId, offset: usize) -> Membrane {
+    let (nodes, gradients) = (mesh.face_nodes(face), mesh.shape_gradients(face));
+    let mut corners = [0, 1, 2];
+    corners.sort_unstable_by_key(|&k: &usize| std::cmp::Reverse(nodes[k]));
+    Membrane {
+        nodes: corners.map(|k| (nodes[k].index() + offset) as u32),
+        gradients: corners.map(|k| gradients[k]),
+        area: mesh.material_area(face),
+    }
+}
+
+/// `None` at the boundary.
+fn hinge(mesh: &Mesh, corner: CornerId, offset: usize) -> Option<Hinge> {
+    let other = mesh.opposite(corner)?;
+    let [start, end] = mesh.edge_nodes(corner);
+    let nodes = [start, end, mesh.node_at(corner), mesh.node_at(other)];
+    let edges = [corner, other].map(|c| {
+        let [from, to] = mesh.edge_vertices(c);
+        mesh.material(to) - mesh.material(from)
+    });
+    let areas = [corner, other].map(|c| mesh.material_area(c.face()));
+    let (curvature_per_angle, shape) = Hinge::measures(edges.map(|e| e.length()), areas);
+    Some(Hinge {
+        nodes: nodes.map(|n| (n.index() + offset) as u32),
+        rest_angle: mesh.rest_angle(corner),
+        edge_angle: edges[0].to_angle(),
+        edge_angle_across: mesh.is_seam(corner).then(|| edges[1].to_angle()),
+        curvature_per_angle,
+        shape,
+    })
+}
