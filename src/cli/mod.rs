@@ -3,3 +3,4 @@
 pub mod interrupt;
 pub mod log;
 pub mod progress;
+pub mod schema;

@@ -1,13 +1,25 @@
 //! What is simulated: garments, fabrics, obstacles, motions, handles, air. Plain data in SI units,
-//! as importers resolve it; files are read in [`native`](self) and `arcsim`.
+//! as [`load`] resolves it from a [`native`] shot file or an imported scene.
 
+mod arcsim;
+mod document;
+mod error;
 mod fabric;
+mod load;
+mod mot;
 mod motion;
+pub mod native;
+mod obj;
+mod resolve;
 mod settings;
+mod source;
 
+pub use error::{LoadError, Place, Problem};
 pub use fabric::{Fabric, MeasuredFabric, StretchStiffness};
-pub use motion::{Motion, MotionKey, Pose};
+pub use load::{LoadOptions, LoadedShot, load, shot_schema};
+pub use motion::{Motion, MotionError, MotionKey, Pose, PoseVelocity};
 pub use settings::{Air, Contact, SizingSettings, StageSwitches, ViewRule, ViewSettings};
+pub use source::{EmbeddedFiles, FileRead, FileSource, FileSystem};
 
 use std::sync::Arc;
 

@@ -1,6 +1,7 @@
 //! Settings with unit, default and consequence.
 
 use glam::DVec3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The air around the cloth.
@@ -122,7 +123,7 @@ pub struct ViewSettings {
 }
 
 /// What the time window anticipates.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ViewRule {
     /// The whole view-dependent metric of every viewer over [t, t+T]: a cut from a wide shot to a

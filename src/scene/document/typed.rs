@@ -1,0 +1,121 @@
+//! From the tree to types.
+
+use serde::de::DeserializeOwned;
+
+use super::{Node, Value};
+use crate::scene::error::{LoadError, Place, Problem};
+
+impl Node {
+    /// The tree as a value of a type.
+    ///
+    /// # Errors
+    /// What the type does not accept, with the place of the offending key or value.
+    pub fn deserialize<T: DeserializeOwned>(&self) -> Result<T, LoadError> {
+        let mut written = Written::default();
+        written.node(self);
+        serde_json::from_str(&written.text).map_err(|error| {
+            let message = error.to_string();
+            // The text is one line; the position is of no meaning to the reader.
+            let what = message.split(" at line 1 column").next().unwrap_or(&message).to_owned();
+            let place = written.place(error.column().saturating_sub(1)).unwrap_or(&self.place);
+            Problem::Shape(what).at(place.clone())
+        })
+    }
+}
+
+/// The tree as one line of JSON, with the stretch of it that each key and value takes. Reading it
+/// back gives errors an offset in this line, and so the place where the value was first written.
+#[derive(Default)]
+struct Written {
+    text: String,
+    /// Start, end and place; a part stands after the whole it belongs to.
+    stretches: Vec<(usize, usize, Place)>,
+}
+
+impl Written {
+    fn place(&self, offset: usize) -> Option<&Place> {
+        let around = |&&(start, end, _): &&(usize, usize, Place)| start <= offset && offset < end;
+        self.stretches.iter().rev().find(around).map(|(_, _, place)| place)
+    }
+
+    fn node(&mut self, node: &Node) {
+        let index = self.begin(&node.place);
+        match &node.value {
+            Value::Null => self.text.push_str("null"),
+            Value::Bool(value) => self.text.push_str(if *value { "true" } else { "false" }),
+            Value::Number(number) => self.text.push_str(&number.to_string()),
+            Value::String(string) => self.string(string),
+            Value::Array(elements) => {
+                self.text.push('[');
+                for (k, element) in elements.iter().enumerate() {
+                    self.separator(k);
+                    self.node(element);
+                }
+                // The space belongs to the list: a missing element is not the last one's fault.
+                self.text.push_str(" ]");
+            }
+            Value::Object(members) => {
+                self.text.push('{');
+                for (k, member) in members.iter().enumerate() {
+                    self.separator(k);
+                    let key = self.begin(&member.place);
+                    self.string(&member.name);
+                    self.end(key);
+                    self.text.push(':');
+                    self.node(&member.node);
+                }
+                self.text.push_str(" }");
+            }
+        }
+        self.end(index);
+    }
+
+    fn separator(&mut self, index: usize) {
+        if index > 0 {
+            self.text.push(',');
+        }
+    }
+
+    fn string(&mut self, string: &str) {
+        self.text.push_str(&serde_json::Value::from(string).to_string());
+    }
+
+    fn begin(&mut self, place: &Place) -> usize {
+        self.stretches.push((self.text.len(), usize::MAX, place.clone()));
+        self.stretches.len() - 1
+    }
+
+    fn end(&mut self, index: usize) {
+        self.stretches[index].1 = self.text.len();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde::Deserialize;
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code)]
+    struct Sample {
+        size: f64,
+        names: Vec<String>,
+        #[serde(default)]
+        corner: [f64; 2],
+    }
+
+    #[test]
+    fn type_errors_point_at_the_key_or_value_at_fault() {
+        for (text, place) in [
+            ("{\"size\": 1,\n\"names\": [\"a\",\n 3]}", "x:3:2"),
+            ("{\"size\": \"big\",\n\"names\": []}", "x:1:10"),
+            ("{\"size\": 1,\n \"nams\": []}", "x:2:2"),
+            ("\n{\"size\": 1}", "x:2:1"),
+            ("{\"size\": 1, \"names\": [],\n\"corner\": [1]}", "x:2:11"),
+        ] {
+            let error = Node::parse("x", text).unwrap().deserialize::<Sample>().unwrap_err();
+            assert_eq!(error.place.as_ref().unwrap().to_string(), place, "{error}");
+        }
+    }
+}
