@@ -5,11 +5,11 @@ use glam::{DMat2, DVec2};
 use super::{Eigen2, SymTensor2};
 
 /// The smallest metric at least as fine as both ([`NPO13`](crate::papers::NPO13)): in the basis
-/// which makes both diagonal, the larger of each pair of eigenvalues. For semi-definite a, b (1/m^2).
+/// which makes both diagonal, the larger of each pair of eigenvalues. For semi-definite ones.
 ///
-/// That is (c + |d|) / 2 with c = a + b, d = a - b, where |d| is the pencil (d, c) with the signs of
-/// its negative eigenvalues turned. With x = tr(adj(a) b): where x <= det a + det b one dominates
-/// and |d| is d or -d; else |d| = (d (det a - det b) + c (x - det a - det b)) / r,
+/// That is (c + |d|) / 2 with c = a + b, d = a - b, where |d| is the pencil (d, c) with the signs
+/// of its negative eigenvalues turned. With x = tr(adj(a) b): where x <= det a + det b one
+/// dominates and |d| is d or -d; else |d| = (d (det a - det b) + c (x - det a - det b)) / r,
 /// r^2 = x^2 - 4 det a det b. No inverse, no eigenvectors; rank one is no exception.
 pub fn tensor_max(a: SymTensor2, b: SymTensor2) -> SymTensor2 {
     let [det_a, det_b] = [a, b].map(|m| m.determinant().max(0.0));
@@ -39,8 +39,8 @@ const CONDITION_MIN: f64 = 1e-10;
 /// The largest metric no finer than either: in the basis which makes both diagonal, the smaller of
 /// each pair of eigenvalues.
 ///
-/// With a = L L^T and L^-1 b L^-T = Q g Q^T it is L Q min(1, g) Q^T L^T: b may be of any rank. Where
-/// a is all but singular, a + b - max(a, b).
+/// With a = L L^T and L^-1 b L^-T = Q g Q^T it is L Q min(1, g) Q^T L^T: b may be of any rank.
+/// Where a is all but singular, a + b - max(a, b).
 pub fn tensor_min(a: SymTensor2, b: SymTensor2) -> SymTensor2 {
     let well_conditioned = |l: &DMat2| l.y_axis.y * l.y_axis.y > CONDITION_MIN * a.yy;
     let Some(l) = a.cholesky().filter(well_conditioned) else {

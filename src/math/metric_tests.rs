@@ -50,12 +50,16 @@ proptest! {
         p in [0.0..10.0, 0.0..10.0], q in [0.0..10.0, 0.0..10.0], angle in 0.0..3.0,
     ) {
         let axis = DVec2::from_angle(angle);
-        let build = |v: [f64; 2]| SymTensor2::outer(axis) * v[0] + SymTensor2::outer(axis.perp()) * v[1];
+        let build = |values: [f64; 2]| {
+            SymTensor2::outer(axis) * values[0] + SymTensor2::outer(axis.perp()) * values[1]
+        };
         let (p, q): ([f64; 2], [f64; 2]) = (p, q);
         let max = tensor_max(build(p), build(q));
         let min = tensor_min(build(p), build(q));
-        prop_assert!(size(max - build([p[0].max(q[0]), p[1].max(q[1])])) < 1e-12 * (1.0 + size(max)));
-        prop_assert!(size(min - build([p[0].min(q[0]), p[1].min(q[1])])) < 1e-9 * (1.0 + size(max)));
+        let larger = build([p[0].max(q[0]), p[1].max(q[1])]);
+        let smaller = build([p[0].min(q[0]), p[1].min(q[1])]);
+        prop_assert!(size(max - larger) < 1e-12 * (1.0 + size(max)));
+        prop_assert!(size(min - smaller) < 1e-9 * (1.0 + size(max)));
     }
 
     #[test]

@@ -52,7 +52,9 @@ mod tests {
         }
 
         #[test]
-        fn parallel_segments_are_no_exception(a in [point(), point()], p in point(), s in -2.0..2.0) {
+        fn parallel_segments_are_no_exception(
+            a in [point(), point()], p in point(), s in -2.0..2.0,
+        ) {
             let b = [p, p + (a[1] - a[0]) * s];
             let (exact, brute) = (segment_distance_squared(a, b), sampled(a, b));
             prop_assert!(exact <= brute + 1e-9 && brute.sqrt() - exact.sqrt() <= 0.005);

@@ -45,7 +45,7 @@ pub enum CameraPathError {
     #[error("the {what} at frame {frame} is {millimetres} mm: it must be above 0")]
     FilmBack { what: &'static str, frame: f64, millimetres: f64 },
     #[error(
-        "the lens at frame {frame} is given in another way than the one before: within a run all must be fields of view or all film backs"
+        "the lens at frame {frame} is given in another way than the one before: between cuts all must be fields of view or all film backs"
     )]
     MixedLenses { frame: f64 },
     #[error(

@@ -32,7 +32,14 @@ impl Frustum {
         if bound == 0.0 && self.meets(&distances, triangle) {
             return 0.0;
         }
-        self.distance_outside(&distances, triangle)
+        let to_sides = self.corners_to_sides(&distances, triangle);
+        if to_sides <= bound {
+            return to_sides;
+        }
+        // Between a corner and a side, a corner of the frustum and the triangle, or two edges.
+        to_sides
+            .min(self.corners_to_inner_triangle(triangle))
+            .min(self.edges_to_edges(&distances, triangle))
     }
 
     /// True if some point of the triangle is inside all sides: the triangle is cut down to what is
@@ -49,15 +56,6 @@ impl Frustum {
             }
         }
         true
-    }
-
-    /// Distance to a triangle that does not meet the frustum: between a corner and a side, a corner
-    /// of the frustum and the triangle, or two edges.
-    fn distance_outside(&self, distances: &SideDistances, triangle: [DVec3; 3]) -> f64 {
-        let corners = self.corners_to_sides(distances, triangle);
-        let inner = self.corners_to_inner_triangle(triangle);
-        let edges = self.edges_to_edges(distances, triangle);
-        corners.min(inner).min(edges)
     }
 
     /// From those corners of the triangle which stand straight above a side.

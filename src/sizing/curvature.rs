@@ -10,11 +10,11 @@ pub fn curvature_metric(normal_gradient: Mat3x2, refine_angle: f64) -> SymTensor
     normal_gradient.gram() * refine_angle.powi(-2)
 }
 
-/// M = II^2 / refine_angle^2 (1/m^2), as [`curvature_metric`] from the second fundamental form (1/m)
-/// ([`NSO12`](crate::papers::NSO12)): folds sharper than vertex normals can tell, which average
-/// over the faces around.
-pub fn hinge_curvature_metric(second_fundamental_form: SymTensor2, angle: f64) -> SymTensor2 {
-    second_fundamental_form.squared() * angle.powi(-2)
+/// M = II^2 / refine_angle^2 (1/m^2), as [`curvature_metric`] from the second fundamental form
+/// (1/m) ([`NSO12`](crate::papers::NSO12)): folds sharper than vertex normals can tell, which
+/// average over the faces around.
+pub fn hinge_curvature_metric(form: SymTensor2, refine_angle: f64) -> SymTensor2 {
+    form.squared() * refine_angle.powi(-2)
 }
 
 /// II = sum over the face's edges of theta l / (2 A) t t^T (1/m), with theta the edge's dihedral

@@ -24,9 +24,10 @@ impl Plane {
     }
 }
 
-/// M = 1/3 sum over the corners of (grad h)(grad h)^T / h^2 (1/m^2), with grad h = F^T n the material
-/// gradient of the distance to the corner's plane: along a valid edge the distance changes by at
-/// most itself ([`NSO12`](crate::papers::NSO12)). A corner without a plane asks for nothing.
+/// M = 1/3 sum over the corners of (grad h)(grad h)^T / h^2 (1/m^2), with grad h = F^T n the
+/// material gradient of the distance to the corner's plane: along a valid edge the distance
+/// changes by at most itself ([`NSO12`](crate::papers::NSO12)). A corner without a
+/// plane asks for nothing.
 pub fn obstacle_metric(
     deformation_gradient: Mat3x2,
     corners: [DVec3; 3],

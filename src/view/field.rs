@@ -56,6 +56,14 @@ fn unseen(base: &IdVec<FaceId, SymTensor2>) -> ViewField {
     }
 }
 
+/// Carries nu(t) = max over tau of w(tau) nu~(t+tau) on by one tau
+/// ([`VD15`](crate::papers::VD15) eq. 4).
+fn anticipate(nu: &mut IdVec<FaceId, f64>, weight: f64, sights: &IdVec<FaceId, Sight>) {
+    for (nu, sight) in nu.iter_mut().zip(sights) {
+        *nu = nu.max(weight * sight.factor);
+    }
+}
+
 /// All that does not change from view to view.
 struct Look<'a> {
     mesh: &'a Mesh,
@@ -96,20 +104,17 @@ impl Look<'_> {
         field
     }
 
-    /// nu(t) = max over tau of w(tau) nu~(t+tau) (eq. 4), resampled (3.3); M~ = nu^2 M (eq. 2);
-    /// then the clamp (eqs. 5 to 8) ([`VD15`](crate::papers::VD15)).
+    /// nu(t) of eq. 4, resampled (3.3); M~ = nu^2 M (eq. 2); then the clamp (eqs. 5 to 8)
+    /// ([`VD15`](crate::papers::VD15)).
     fn as_in_the_papers(&self, window: &ViewerWindow) -> ViewField {
         let mut field = self.nothing_seen();
         let present = window.present();
         let now = self.sights(present, &mut field);
-        let mut anticipated: IdVec<FaceId, f64> = now.iter().map(|s| s.factor).collect();
+        let mut nu: IdVec<FaceId, f64> = now.iter().map(|s| s.factor).collect();
         for sample in &window.samples()[1..] {
-            let sights = self.sights(sample, &mut field);
-            for (nu, sight) in anticipated.iter_mut().zip(&sights) {
-                *nu = nu.max(sample.weight * sight.factor);
-            }
+            anticipate(&mut nu, sample.weight, &self.sights(sample, &mut field));
         }
-        field.factor = self.resampled(&anticipated, &now);
+        field.factor = self.resampled(&nu, &now);
         for face in self.mesh.face_ids() {
             let wanted = self.base[face] * field.factor[face].powi(2);
             field.metric[face] = self.clamped(wanted, face, present, now[face].visibility);

@@ -236,6 +236,16 @@ fn after_a_cut_away_the_old_view_still_counts_until_the_cut() {
 }
 
 #[test]
+fn without_anticipation_a_cut_comes_as_a_surprise() {
+    let mut case = Case::new(curtain());
+    case.settings.anticipation_frames = 0.0;
+    let shot = cut_at_10(looking_away(), close_up());
+    for (frame, expected) in [(9.0, 0.01), (9.999, 0.01), (10.0, 1.0)] {
+        assert!(case.at(&shot, frame).factor.iter().all(|&nu| nu == expected));
+    }
+}
+
+#[test]
 fn a_cut_from_wide_to_close_up_is_prepared_by_the_whole_metric_alone() {
     let mut case = Case::new(curtain());
     let shot = cut_at_10(wide(), close_up());

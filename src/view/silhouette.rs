@@ -2,9 +2,9 @@
 
 use crate::mesh::{FaceId, IdVec, Mesh};
 
-/// View factors in which a hidden face has at least the average of its own and a neighbour's factor,
-/// wherever the two differ by more than `threshold` ([`VD15`](crate::papers::VD15) 3.3). Of several
-/// such neighbours the largest average counts; visible faces keep their factor.
+/// View factors in which a hidden face has at least the average of its own and a neighbour's
+/// factor, wherever the two differ by more than `threshold` ([`VD15`](crate::papers::VD15) 3.3).
+/// Of several such neighbours the largest average counts; visible faces keep their factor.
 ///
 /// Every average is of the given factors, so the order of edges does not matter. Of two hidden
 /// faces it is the coarser that takes the average.
@@ -28,8 +28,39 @@ pub fn resampled(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::Id;
+    use crate::mesh::{Id, RawMesh};
     use crate::sizing::tests::{flat, sheet};
+
+    /// The same garment with its faces in the reverse order.
+    fn reversed(mesh: &Mesh) -> Mesh {
+        let raw = RawMesh {
+            positions: mesh.position.iter().copied().collect(),
+            vertices: mesh
+                .vertex_ids()
+                .map(|v| (mesh.node_of(v).index() as u32, mesh.material(v)))
+                .collect(),
+            faces: mesh
+                .face_ids()
+                .rev()
+                .map(|f| mesh.face_vertices(f).map(|v| v.index() as u32))
+                .collect(),
+            ..RawMesh::default()
+        };
+        Mesh::from_raw(&raw, &[]).unwrap()
+    }
+
+    #[test]
+    fn the_order_of_edges_does_not_matter() {
+        let mesh = sheet(5, 5, 0.1, flat);
+        let last = mesh.face_count() - 1;
+        let nu = |i: usize| ((i * 7) % 11) as f64 / 11.0;
+        let visible = |i: usize| i.is_multiple_of(3);
+        let there = resampled(&mesh, &factors(&mesh, nu), |f| visible(f.index()), 0.1);
+        let back = reversed(&mesh);
+        let nu_back = factors(&back, |i| nu(last - i));
+        let here = resampled(&back, &nu_back, |f| visible(last - f.index()), 0.1);
+        assert!(there.iter().eq(here.as_slice().iter().rev()));
+    }
 
     fn factors(mesh: &Mesh, f: impl Fn(usize) -> f64) -> IdVec<FaceId, f64> {
         mesh.face_ids().map(|face| f(face.index())).collect()
