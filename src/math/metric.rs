@@ -78,7 +78,7 @@ impl SymTensor2 {
         Self::from_eigen(Eigen2 { values: [eigen.values[0], least], ..eigen })
     }
 
-    /// [M]_+: negative eigenvalues become 0.
+    /// The positive part: negative eigenvalues become 0.
     pub fn positive_part(self) -> Self {
         self.map_eigenvalues(|value| value.max(0.0))
     }
