@@ -2,9 +2,13 @@
 //! triangles in space.
 
 mod mat3x2;
+mod metric;
+mod segment;
 mod tensor;
 mod triangle;
 
 pub use mat3x2::Mat3x2;
+pub use metric::{tensor_max, tensor_max_of, tensor_min};
+pub use segment::segment_distance_squared;
 pub use tensor::{Eigen2, SymTensor2};
 pub use triangle::{ClosestPoint, closest_point_on_triangle, triangles_cross};

@@ -11,6 +11,51 @@ pub enum Lens {
     FilmBack { focal_mm: f64, aperture_mm: DVec2, offset_mm: DVec2 },
 }
 
+impl Lens {
+    /// The film gate on the plane one metre in front of the eye, minimum and maximum (m). The film
+    /// back is fitted horizontally: its height follows from the image's aspect, width over height.
+    /// A positive offset moves the gate to the right and up.
+    pub fn gate(&self, image_aspect: f64) -> [DVec2; 2] {
+        let (centre, half) = match *self {
+            Lens::FieldOfView { fov_y } => {
+                let half_height = (0.5 * fov_y).tan();
+                (DVec2::ZERO, DVec2::new(half_height * image_aspect, half_height))
+            }
+            Lens::FilmBack { focal_mm, aperture_mm, offset_mm } => {
+                let half_width = 0.5 * aperture_mm.x / focal_mm;
+                (offset_mm / focal_mm, DVec2::new(half_width, half_width / image_aspect))
+            }
+        };
+        [centre - half, centre + half]
+    }
+
+    pub(super) fn is_same_kind(&self, other: &Lens) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+
+    /// The numbers that move along a path, in a fixed order; those the kind has no use for are 0.
+    pub(super) fn components(&self) -> [f64; 5] {
+        match *self {
+            Lens::FieldOfView { fov_y } => [fov_y, 0.0, 0.0, 0.0, 0.0],
+            Lens::FilmBack { focal_mm, aperture_mm: a, offset_mm: o } => {
+                [focal_mm, a.x, a.y, o.x, o.y]
+            }
+        }
+    }
+
+    /// A lens of this kind from its numbers; the reverse of `components`.
+    pub(super) fn with_components(self, [first, ax, ay, ox, oy]: [f64; 5]) -> Lens {
+        match self {
+            Lens::FieldOfView { .. } => Lens::FieldOfView { fov_y: first },
+            Lens::FilmBack { .. } => Lens::FilmBack {
+                focal_mm: first,
+                aperture_mm: DVec2::new(ax, ay),
+                offset_mm: DVec2::new(ox, oy),
+            },
+        }
+    }
+}
+
 /// A pinhole camera at one time. Camera space: x right, y up, looking along -z.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {

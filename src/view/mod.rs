@@ -1,1 +1,22 @@
-//! How fine each part of a garment must be for those who look.
+//! How fine each part of a garment must be for those who look ([`VD15`](crate::papers::VD15) 3.1
+//! to 3.3).
+//!
+//! ```text
+//! window        whom to please: each viewer now and over the next frames, on both sides of cuts
+//! sight         what one view makes of a face: distance, facing, view factor (eq. 3)
+//! silhouette    factors carried across edges to hidden faces (3.3)
+//! screen        no finer than the image can show (eqs. 5 to 8)
+//! field         all of it combined over the window and the viewers (eqs. 2 and 4)
+//! ```
+
+mod field;
+mod screen;
+mod sight;
+mod silhouette;
+mod window;
+
+pub use field::{ViewField, view_field};
+pub use screen::{screen_clamped, screen_jacobian};
+pub use sight::{Facing, Sight, Visibility, facing, nearness, spatial_view_factor};
+pub use silhouette::resampled;
+pub use window::{ViewSample, ViewerWindow};
