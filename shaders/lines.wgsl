@@ -4,10 +4,10 @@
 struct LinePoint {
     @builtin(position) point_in_clip: vec4<f32>,
     // Along the line from its start, and across it.
-    @location(0) @interpolate(linear) offset_px: vec2<f32>,
+    @location(0) offset_px: vec2<f32>,
     @location(1) @interpolate(flat) length_px: f32,
     @location(2) @interpolate(flat) radius_px: f32,
-    @location(3) @interpolate(linear) colour: vec4<f32>,
+    @location(3) colour: vec4<f32>,
 }
 
 // What remains of a line behind a surface.
@@ -65,8 +65,9 @@ fn vs_line(
     out.offset_px = vec2<f32>(forward, side);
     let anchor = select(start, end, at_end);
     let point = (start_px + along * forward + across * side) / half_size_px;
-    out.point_in_clip =
-        vec4<f32>(point * anchor.w, anchor.z - DEPTH_BIAS * anchor.w, anchor.w);
+    // Depth is linear on the image, so the division can be done here and nothing bends.
+    let depth = max(anchor.z / anchor.w - DEPTH_BIAS, 0.0);
+    out.point_in_clip = vec4<f32>(point, depth, 1.0);
     out.colour = linear_from_srgb(select(start_colour, end_colour, at_end));
     return out;
 }

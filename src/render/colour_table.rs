@@ -60,13 +60,13 @@ impl ColourTable {
                 diverging(blue, pale, red, s)
             }
             Self::Strain => {
-                let violet = Oklab::from_chroma(0.44, 0.15, 300.0);
-                let orange = Oklab::from_chroma(0.52, 0.13, 52.0);
+                let violet = Oklab::from_chroma(0.50, 0.13, 300.0);
+                let orange = Oklab::from_chroma(0.50, 0.115, 52.0);
                 diverging(violet, pale, orange, s)
             }
             Self::EdgeSize => {
                 let hue_deg = 105.0 + 190.0 * s;
-                let chroma = 0.095 + 0.035 * (s * std::f32::consts::PI).sin();
+                let chroma = 0.09 + 0.03 * (s * std::f32::consts::PI).sin();
                 Oklab::from_chroma(0.92 - 0.60 * s, chroma, hue_deg)
             }
         }
