@@ -19,14 +19,14 @@ struct Material {
 @group(1) @binding(0) var<uniform> material: Material;
 
 // Lights stand still in the world, so that all views agree. Z is up.
-const KEY_DIRECTION: vec3<f32> = vec3<f32>(-0.4243, -0.5657, 0.7071);
-const KEY_LIGHT: vec3<f32> = vec3<f32>(0.80, 0.78, 0.74);
+const KEY_DIRECTION: vec3<f32> = vec3<f32>(-0.7005, -0.4003, 0.5908);
+const KEY_LIGHT: vec3<f32> = vec3<f32>(0.96, 0.93, 0.88);
 const FILL_DIRECTION: vec3<f32> = vec3<f32>(0.7845, 0.5883, 0.1961);
 const FILL_LIGHT: vec3<f32> = vec3<f32>(0.14, 0.15, 0.18);
 const SKY_LIGHT: vec3<f32> = vec3<f32>(0.42, 0.43, 0.46);
 const GROUND_LIGHT: vec3<f32> = vec3<f32>(0.22, 0.21, 0.20);
 // How far the key light reaches around the terminator.
-const KEY_WRAP: f32 = 0.3;
+const KEY_WRAP: f32 = 0.12;
 // The light that `modelling` = 0 leaves.
 const EVEN_LIGHT: vec3<f32> = vec3<f32>(0.86, 0.86, 0.86);
 // The back of a face in a colour map: darker and greyer, the hue unchanged.
@@ -35,7 +35,7 @@ const BACK_GREY: f32 = 0.22;
 const LUMINANCE: vec3<f32> = vec3<f32>(0.2126, 0.7152, 0.0722);
 // Edges fade out where a face's smallest height is between these: they would be a dark mush.
 const WIRE_GONE_PX: f32 = 2.5;
-const WIRE_FULL_PX: f32 = 11.0;
+const WIRE_FULL_PX: f32 = 9.0;
 
 struct SurfacePoint {
     @builtin(position) point_in_clip: vec4<f32>,

@@ -49,7 +49,7 @@ const BODY: Material = Material {
 
 /// Length of the camera's body as a share of its distance from the witness: the same size on the
 /// image in every shot.
-const BODY_SHARE: f64 = 0.035;
+const BODY_SHARE: f64 = 0.045;
 
 impl ShotCamera<'_> {
     /// A frustum depth (m) that ends a little behind the subject, within near and far plane.

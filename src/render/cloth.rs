@@ -18,7 +18,7 @@ const FABRICS: [[Srgb; 2]; 4] = [
 ];
 
 /// How much of the light's modelling a colour map bears before it is no longer readable.
-const MAPPED_MODELLING: f32 = 0.72;
+const MAPPED_MODELLING: f32 = 0.9;
 
 /// The garment, as number `index` of the frame's.
 pub(super) fn batch(

@@ -15,7 +15,7 @@ pub const COLOURS_PER_TABLE: usize = 256;
 const PATH_POINTS: usize = 4096;
 /// Half the width of the round turn in the middle of a diverging path: a sharp one looks like an
 /// edge in the data.
-const TURN: f32 = 0.12;
+const TURN: f32 = 0.07;
 
 /// A colour map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,18 +55,18 @@ impl ColourTable {
         let pale = Oklab::from_chroma(0.90, 0.008, 95.0);
         match self {
             Self::ViewFactor => {
-                let blue = Oklab::from_chroma(0.50, 0.165, 259.0);
-                let red = Oklab::from_chroma(0.50, 0.165, 25.0);
+                let blue = Oklab::from_chroma(0.54, 0.165, 258.0);
+                let red = Oklab::from_chroma(0.54, 0.165, 25.0);
                 diverging(blue, pale, red, s)
             }
             Self::Strain => {
-                let violet = Oklab::from_chroma(0.50, 0.13, 300.0);
+                let violet = Oklab::from_chroma(0.50, 0.12, 300.0);
                 let orange = Oklab::from_chroma(0.50, 0.115, 52.0);
                 diverging(violet, pale, orange, s)
             }
             Self::EdgeSize => {
                 let hue_deg = 105.0 + 190.0 * s;
-                let chroma = 0.09 + 0.03 * (s * std::f32::consts::PI).sin();
+                let chroma = 0.084 + 0.018 * (s * std::f32::consts::PI).sin();
                 Oklab::from_chroma(0.92 - 0.60 * s, chroma, hue_deg)
             }
         }

@@ -184,7 +184,7 @@ mod tests {
     #[test]
     fn an_error_on_the_device_is_recorded_and_reported_once() {
         let gpu = Gpu::new(&AdapterChoice::Software).unwrap();
-        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        let _refused = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
             size: 16,
             usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::MAP_WRITE,

@@ -15,7 +15,7 @@ const PANEL_SHARE: f32 = 0.80;
 const BAR_LENGTH: f32 = 17.0;
 const BAR_HEIGHT: f32 = 0.85;
 const TICK_LENGTH: f32 = 0.35;
-const SIDE: f32 = 1.2;
+const SIDE: f32 = 1.9;
 const LINE_HEIGHT: f32 = 1.35;
 
 /// Width and height (px) of the legend for text of a height.

@@ -58,7 +58,7 @@ fn draw_header(sheet: &mut RgbaImage, layout: &Layout, options: &SheetOptions, l
     let mut room = (layout.width - 2 * MARGIN) as f32;
     if options.colour_by.table().is_some() && layout.width > legend[0] + 2 * MARGIN {
         // The bar, not the panel's invisible edge, lines up with the pictures.
-        let side = (1.2 * LEGEND_TEXT_PX) as u32;
+        let side = (1.9 * LEGEND_TEXT_PX) as u32;
         let x = layout.width - MARGIN - legend[0] + side;
         draw_legend(sheet, options.colour_by, (i64::from(x), i64::from(MARGIN)), LEGEND_TEXT_PX);
         room -= legend[0] as f32;
