@@ -29,6 +29,9 @@ const GROUND_LIGHT: vec3<f32> = vec3<f32>(0.22, 0.21, 0.20);
 const KEY_WRAP: f32 = 0.12;
 // The light that `modelling` = 0 leaves.
 const EVEN_LIGHT: vec3<f32> = vec3<f32>(0.86, 0.86, 0.86);
+// What is left of the light where a surface turns away from the eye: folds read from any side, even
+// with the key light behind the camera.
+const GRAZING_SHARE: f32 = 0.58;
 // The back of a face in a colour map: darker and greyer, the hue unchanged.
 const BACK_SHADE: f32 = 0.70;
 const BACK_GREY: f32 = 0.22;
@@ -97,8 +100,10 @@ fn fs_surface(in: SurfacePoint, @builtin(front_facing) front: bool) -> @location
     let wire = wire_coverage(in.barycentric) * material.wire_strength;
     let to_eye = normalize(scene.eye_in_local - in.point_in_local);
     let outward = normalize(in.normal) * select(-1.0, 1.0, front);
-    var colour = albedo(in.colour_coordinate, front) * light_on(outward);
-    let grazing = pow(1.0 - clamp(dot(outward, to_eye), 0.0, 1.0), 4.0);
-    colour += material.sheen * 0.25 * grazing * light_on(outward);
+    let facing = clamp(dot(outward, to_eye), 0.0, 1.0);
+    let depth = mix(1.0, mix(GRAZING_SHARE, 1.0, sqrt(facing)), material.modelling);
+    let light = light_on(outward) * depth;
+    let loose_fibres = material.sheen * 0.25 * pow(1.0 - facing, 4.0);
+    let colour = (albedo(in.colour_coordinate, front) + loose_fibres) * light;
     return vec4<f32>(mix(colour, colour * 0.12, wire), 1.0);
 }

@@ -80,9 +80,11 @@ fn camera(time: f64) -> View {
     }
 }
 
+/// The drive, and a cut to a close-up after it.
 fn trail() -> CameraTrail {
-    let eyes = (0..=24).map(|i| camera(f64::from(i) / 24.0).eye).collect();
-    CameraTrail { eyes, keys: vec![0, 12, 24], cuts: Vec::new() }
+    let drive = (0..=24).map(|i| camera(f64::from(i) / 24.0).eye);
+    let close_up = (0..=8).map(|i| DVec3::new(1.1 + 0.08 * f64::from(i), -1.5, 0.75));
+    CameraTrail { eyes: drive.chain(close_up).collect(), keys: vec![0, 12, 24, 33], cuts: vec![25] }
 }
 
 fn shot(headless: &mut Headless, options: &PictureOptions) -> RgbaImage {

@@ -59,7 +59,7 @@ fn material(index: usize, options: &PictureOptions) -> Material {
         tint: FABRICS[index % FABRICS.len()],
         table: options.colour_by.table(),
         wire_strength: options.wire_strength,
-        sheen: if plain { 0.5 } else { 0.2 },
+        sheen: if plain { 0.35 } else { 0.1 },
         modelling: if plain { 1.0 } else { MAPPED_MODELLING },
     }
 }

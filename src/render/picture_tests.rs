@@ -196,3 +196,42 @@ fn equal_lists_give_equal_pictures_whatever_was_drawn_before() {
     picture(&large);
     assert!(first == picture(&small));
 }
+
+/// `cargo test --release -- --ignored --nocapture a_large_picture` prints what a picture costs.
+#[test]
+#[ignore = "measures time"]
+fn a_large_picture_takes_less_than_a_quarter_of_a_second() {
+    let rows = 100;
+    let cell = 1.0 / f64::from(rows);
+    let corner = |i: i32, j: i32| {
+        let (x, y) = (f64::from(i) * cell - 0.5, f64::from(j) * cell - 0.5);
+        [x, y, 0.03 * (30.0 * x).sin() * (20.0 * y).cos()]
+    };
+    let cells = (0..rows * rows).map(|k| (k % rows, k / rows));
+    let triangles: Vec<_> = cells
+        .flat_map(|(i, j)| {
+            let [a, b, c, d] =
+                [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        })
+        .collect();
+    let cloth = frame([flat(&triangles)]);
+    let view = overhead([1280, 720]);
+    let mut headless = headless();
+    let mut seconds = || {
+        let start = std::time::Instant::now();
+        let list = DrawList::new(&cloth, &[], &PictureOptions::default());
+        let built = start.elapsed().as_secs_f64();
+        headless.draw(&list, &view, view.resolution).unwrap();
+        println!(
+            "list {:.1} ms, picture {:.1} ms",
+            built * 1e3,
+            start.elapsed().as_secs_f64() * 1e3
+        );
+        start.elapsed().as_secs_f64()
+    };
+    seconds();
+    let best = (0..10).map(|_| seconds()).fold(f64::INFINITY, f64::min);
+    println!("20,000 faces at 1280 x 720: {:.1} ms", best * 1e3);
+    assert!(best < 0.25, "{best} s");
+}
