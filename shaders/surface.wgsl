@@ -103,7 +103,8 @@ fn fs_surface(in: SurfacePoint, @builtin(front_facing) front: bool) -> @location
     let facing = clamp(dot(outward, to_eye), 0.0, 1.0);
     let depth = mix(1.0, mix(GRAZING_SHARE, 1.0, sqrt(facing)), material.modelling);
     let light = light_on(outward) * depth;
-    let loose_fibres = material.sheen * 0.25 * pow(1.0 - facing, 4.0);
+    let grazing_squared = (1.0 - facing) * (1.0 - facing);
+    let loose_fibres = material.sheen * 0.25 * grazing_squared * grazing_squared;
     let colour = (albedo(in.colour_coordinate, front) + loose_fibres) * light;
     return vec4<f32>(mix(colour, colour * 0.12, wire), 1.0);
 }

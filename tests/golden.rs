@@ -25,8 +25,10 @@ use wavy_state::State;
 
 const SIZE: [u32; 2] = [640, 360];
 
+type Drawing = fn(&mut Headless) -> RgbaImage;
+
 /// Folders and what is drawn in them.
-const PICTURES: [(&str, fn(&mut Headless) -> RgbaImage); 6] = [
+const PICTURES: [(&str, Drawing); 6] = [
     ("shot", |h| shot(h, &options(ColourBy::ViewFactor(NU)))),
     ("witness", |h| witness(h, 0.0, &options(ColourBy::ViewFactor(NU)))),
     ("plain", |h| shot(h, &PictureOptions { wire_strength: 0.0, ..options(ColourBy::Plain) })),
@@ -97,7 +99,8 @@ fn witness(headless: &mut Headless, time: f64, options: &PictureOptions) -> Rgba
     let (frame, surfaces) = (state.frame(), state.surfaces());
     let cloth = Bounds::of_cloth(&frame);
     let trail = trail();
-    let mut subject = WitnessSubject { cloth, eyes: trail.eyes.clone() };
+    let mut subject =
+        WitnessSubject { cloth, views: (0..=6).map(|i| camera(f64::from(i) / 6.0)).collect() };
     for (surface, pose) in surfaces.iter().zip(&frame.obstacle_poses) {
         subject = subject.with_obstacle(surface, *pose);
     }

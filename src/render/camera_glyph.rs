@@ -120,7 +120,7 @@ impl DrawList {
 }
 
 /// Corners of the gate at a depth (m), counter-clockwise from the lower left, in the world.
-fn gate_corners(view: &View, depth: f64) -> [DVec3; 4] {
+pub(super) fn gate_corners(view: &View, depth: f64) -> [DVec3; 4] {
     let (min, max) = (view.gate_min, view.gate_max);
     [(min.x, min.y), (max.x, min.y), (max.x, max.y), (min.x, max.y)]
         .map(|(x, y)| view.eye + depth * (view.right * x + view.up * y - view.back))

@@ -200,7 +200,7 @@ fn equal_lists_give_equal_pictures_whatever_was_drawn_before() {
 /// `cargo test --release -- --ignored --nocapture a_large_picture` prints what a picture costs.
 #[test]
 #[ignore = "measures time"]
-fn a_large_picture_takes_less_than_a_quarter_of_a_second() {
+fn a_large_picture_takes_less_than_a_quarter_of_a_cpu_second() {
     let rows = 100;
     let cell = 1.0 / f64::from(rows);
     let corner = |i: i32, j: i32| {
@@ -218,20 +218,14 @@ fn a_large_picture_takes_less_than_a_quarter_of_a_second() {
     let cloth = frame([flat(&triangles)]);
     let view = overhead([1280, 720]);
     let mut headless = headless();
+    // CPU time: another program on the machine would spoil wall time.
     let mut seconds = || {
-        let start = std::time::Instant::now();
-        let list = DrawList::new(&cloth, &[], &PictureOptions::default());
-        let built = start.elapsed().as_secs_f64();
-        headless.draw(&list, &view, view.resolution).unwrap();
-        println!(
-            "list {:.1} ms, picture {:.1} ms",
-            built * 1e3,
-            start.elapsed().as_secs_f64() * 1e3
-        );
+        let start = cpu_time::ProcessTime::now();
+        headless.picture(&cloth, &[], &view, &PictureOptions::default()).unwrap();
         start.elapsed().as_secs_f64()
     };
     seconds();
     let best = (0..10).map(|_| seconds()).fold(f64::INFINITY, f64::min);
-    println!("20,000 faces at 1280 x 720: {:.1} ms", best * 1e3);
+    println!("20,000 faces at 1280 x 720: {:.1} ms of CPU", best * 1e3);
     assert!(best < 0.25, "{best} s");
 }

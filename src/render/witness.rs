@@ -1,13 +1,15 @@
 //! Where to stand to see both the cloth and the camera that watches it.
 //!
 //! One place serves a whole run: it is found from the space the cloth takes up over all frames and
-//! from every eye of the path, so a sheet does not jump. Candidates go around the subject, a
+//! from the shot camera's views over the run, so a sheet does not jump. Candidates go around the subject, a
 //! little above it; at each the camera is drawn back just so far that everything is in frame.
 //! The best shows the subject large and the shot camera's axis from the side.
 //!
 //! A far camera would make the cloth a dot. Eyes further from the subject than
 //! [`EYE_DISTANCE_MAX`] times its radius are therefore moved in along the line of sight before
 //! framing: they stay outside the picture, and their frustum enters it from the right direction.
+//! In the same way the edge of the shot's frame is kept in the picture where it passes the cloth,
+//! up to [`GATE_DISTANCE_MAX`] radii away: what is in and out of frame is what the witness shows.
 
 use std::f64::consts::TAU;
 
@@ -17,25 +19,30 @@ use crate::scene::{Pose, Surface};
 use crate::shot::View;
 
 use super::bounds::Bounds;
+use super::camera_glyph::gate_corners;
 
 /// What the witness should see.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WitnessSubject {
     /// Around the cloth over the whole range of frames.
     pub cloth: Bounds,
-    /// The shot camera's eyes, at least the current one; in the world (m).
-    pub eyes: Vec<DVec3>,
+    /// The shot camera over the run, at least the current view; every few frames is enough.
+    pub views: Vec<View>,
 }
 
 /// Eyes beyond this many radii of the subject are not framed.
 const EYE_DISTANCE_MAX: f64 = 4.5;
+/// Corners of the shot's frame beyond this many radii of the subject are not framed.
+const GATE_DISTANCE_MAX: f64 = 1.25;
+/// Room for the camera's body behind its eye, as a share of the eye's distance.
+const BODY_ROOM: f64 = 0.06;
 /// Above the horizon (rad): three-quarter view, floors seen as floors.
 const ELEVATION: f64 = 0.42;
 const AZIMUTHS: usize = 48;
 /// Vertical field of view (rad): long enough that little is distorted.
 const FOV_Y: f64 = 0.6;
 /// Part of the frame that is left free on each side.
-const MARGIN: f64 = 0.08;
+const MARGIN: f64 = 0.07;
 /// Radius of a subject without extent (m).
 const RADIUS_MIN: f64 = 0.05;
 
@@ -57,9 +64,20 @@ impl WitnessSubject {
     /// All points that must be in frame.
     fn points(&self) -> Vec<DVec3> {
         let centre = self.cloth.centre();
-        let limit = EYE_DISTANCE_MAX * self.radius();
-        let framed = |&eye: &DVec3| centre + (eye - centre).clamp_length_max(limit);
-        self.cloth.corners().into_iter().chain(self.eyes.iter().map(framed)).collect()
+        let within = |point: DVec3, radii: f64| {
+            centre + (point - centre).clamp_length_max(radii * self.radius())
+        };
+        let mut points = self.cloth.corners().to_vec();
+        for view in &self.views {
+            let rear = view.eye + view.back * (BODY_ROOM * view.eye.distance(centre));
+            points.extend([view.eye, rear].map(|p| within(p, EYE_DISTANCE_MAX)));
+            let depth = -view.point_in_camera(centre).z;
+            if depth > view.near {
+                let corners = gate_corners(view, depth);
+                points.extend(corners.map(|p| within(p, GATE_DISTANCE_MAX)));
+            }
+        }
+        points
     }
 
     fn radius(&self) -> f64 {
@@ -79,9 +97,11 @@ pub fn witness_view(subject: &WitnessSubject, resolution: [u32; 2]) -> View {
     let score = |view: &View| {
         let size = subject.radius() / view.eye.distance(centre);
         let to_witness = (view.eye - centre).normalize_or_zero();
-        let side_on = |eye: &DVec3| to_witness.cross((eye - centre).normalize_or_zero()).length();
-        let worst = subject.eyes.iter().map(side_on).fold(1.0, f64::min);
-        let mean = subject.eyes.iter().map(side_on).sum::<f64>() / subject.eyes.len().max(1) as f64;
+        let side_on =
+            |view: &View| to_witness.cross((view.eye - centre).normalize_or_zero()).length();
+        let worst = subject.views.iter().map(side_on).fold(1.0, f64::min);
+        let mean =
+            subject.views.iter().map(side_on).sum::<f64>() / subject.views.len().max(1) as f64;
         size * (0.15 + 0.35 * worst + 0.5 * mean)
     };
     (0..AZIMUTHS)
@@ -128,7 +148,12 @@ fn fitted(back: DVec3, points: &[DVec3], resolution: [u32; 2]) -> View {
 
 #[cfg(test)]
 mod tests {
+    use super::super::fixture::look_at;
     use super::*;
+
+    fn from_eye(eye: DVec3) -> Vec<View> {
+        vec![look_at(eye, dress().centre(), 35.0, [1920, 1080])]
+    }
 
     const SIZE: [u32; 2] = [640, 360];
 
@@ -145,7 +170,7 @@ mod tests {
     fn cloth_and_camera_are_in_frame_from_the_side() {
         for eye in [[3.0, 0.0, 1.0], [-2.0, 2.0, 1.5], [0.0, -4.0, 0.5], [0.1, 0.0, 3.5]] {
             let eye = DVec3::from_array(eye);
-            let subject = WitnessSubject { cloth: dress(), eyes: vec![eye] };
+            let subject = WitnessSubject { cloth: dress(), views: from_eye(eye) };
             let view = witness_view(&subject, SIZE);
             assert!(dress().corners().into_iter().all(|c| in_frame(&view, c)));
             assert!(in_frame(&view, eye));
@@ -157,7 +182,8 @@ mod tests {
 
     #[test]
     fn a_camera_far_away_does_not_make_the_cloth_a_dot() {
-        let subject = WitnessSubject { cloth: dress(), eyes: vec![DVec3::new(70.0, 0.0, 2.0)] };
+        let subject =
+            WitnessSubject { cloth: dress(), views: from_eye(DVec3::new(70.0, 0.0, 2.0)) };
         let view = witness_view(&subject, SIZE);
         let rows = dress().corners().map(|c| view.point_in_image(c).unwrap().y);
         let height =
@@ -171,7 +197,7 @@ mod tests {
             positions: vec![DVec3::new(-50.0, -50.0, 0.0), DVec3::new(50.0, 50.0, 0.0)],
             triangles: Vec::new(),
         };
-        let subject = WitnessSubject { cloth: dress(), eyes: vec![DVec3::X * 3.0] };
+        let subject = WitnessSubject { cloth: dress(), views: from_eye(DVec3::X * 3.0) };
         let with_floor = subject.with_obstacle(&floor, Pose::IDENTITY);
         assert!(with_floor.cloth.radius() < 2.0 * dress().radius());
     }
