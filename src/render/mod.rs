@@ -1,1 +1,46 @@
 //! Drawing: the same call for files and for a window.
+//!
+//! A [`DrawList`] is plain data, built on the CPU from a frame. [`Renderer::draw`] draws it as a
+//! [`View`](crate::shot::View) sees it into any texture; [`Headless`] owns such a texture and hands
+//! back an image. Two views of one frame, the shot camera's and the witness's, are two lists.
+//! No other module knows wgpu.
+
+mod bounds;
+mod camera_glyph;
+mod cloth;
+mod colour;
+mod colour_by;
+mod colour_table;
+mod draw_list;
+mod gpu;
+mod ground;
+mod headless;
+mod legend;
+mod obstacle;
+mod options;
+mod passes;
+mod renderer;
+mod target;
+mod text;
+mod uniforms;
+mod witness;
+
+#[cfg(test)]
+mod fixture;
+#[cfg(test)]
+mod picture_tests;
+
+pub use bounds::Bounds;
+pub use camera_glyph::{CameraTrail, ShotCamera};
+pub use colour::{Oklab, Srgb};
+pub use colour_by::{ColourBy, LogRange, Tick};
+pub use colour_table::{COLOURS_PER_TABLE, ColourTable};
+pub use draw_list::{DrawList, Line, Material, SurfaceBatch, SurfaceVertex};
+pub use gpu::{AdapterChoice, Gpu, RenderError};
+pub use headless::Headless;
+pub use legend::{draw_legend, legend_size};
+pub use options::{Background, PictureOptions, Shading};
+pub use renderer::Renderer;
+pub use target::{TARGET_FORMAT, Target, TargetTexture, WINDOW_FORMAT};
+pub use text::{Align, Face, draw_text, text_width};
+pub use witness::{WitnessSubject, witness_view};

@@ -1,0 +1,61 @@
+//! How a frame is shown. Plain data with defaults.
+
+use super::colour::Srgb;
+use super::colour_by::{ColourBy, LogRange};
+
+/// How a frame is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureOptions {
+    /// Width and height (px); `None` takes the view's own resolution.
+    pub size: Option<[u32; 2]>,
+    pub colour_by: ColourBy,
+    pub shading: Shading,
+    /// How dark the mesh's edges are drawn, 0 (not at all) to 1.
+    pub wire_strength: f32,
+    /// Width of the mesh's edges (px).
+    pub wire_width_px: f32,
+    /// Height of a grid on the ground (m); `None` draws none.
+    pub ground_height: Option<f64>,
+    pub background: Background,
+    /// Height of the legend's text (px); `None` draws no legend.
+    pub legend_px: Option<f32>,
+}
+
+/// Whether light sees the folds or the faces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shading {
+    /// Normals per node, across seams.
+    #[default]
+    Smooth,
+    /// Normals per face: shows the mesh as it is.
+    Flat,
+}
+
+/// A gradient behind everything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Background {
+    pub top: Srgb,
+    pub bottom: Srgb,
+}
+
+impl Default for Background {
+    /// Pale and neutral: both ends of every colour map and black lines stand out against it.
+    fn default() -> Self {
+        Self { top: Srgb([243, 244, 246]), bottom: Srgb([221, 222, 226]) }
+    }
+}
+
+impl Default for PictureOptions {
+    fn default() -> Self {
+        Self {
+            size: None,
+            colour_by: ColourBy::ViewFactor(LogRange { start: 1.0, end: 0.01 }),
+            shading: Shading::Smooth,
+            wire_strength: 0.55,
+            wire_width_px: 1.0,
+            ground_height: None,
+            background: Background::default(),
+            legend_px: None,
+        }
+    }
+}
