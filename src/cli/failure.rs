@@ -21,8 +21,8 @@ pub enum Failure {
     Render(#[from] RenderError),
     #[error(transparent)]
     Simulation(#[from] SimError),
-    #[error("interrupted: {0}")]
-    Interrupted(&'static str, Signal),
+    #[error("interrupted; what is written so far is whole")]
+    Interrupted(Signal),
 }
 
 impl Failure {
@@ -37,7 +37,7 @@ impl Failure {
             Failure::Render(RenderError::NoAdapter { .. }) => 4,
             Failure::Render(_) => 1,
             Failure::Simulation(_) => 5,
-            Failure::Interrupted(_, signal) => signal.exit_code(),
+            Failure::Interrupted(signal) => signal.exit_code(),
         }
     }
 }

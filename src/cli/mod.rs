@@ -1,6 +1,53 @@
 //! The command line, one subcommand a file.
 
-pub mod interrupt;
-pub mod log;
-pub mod progress;
-pub mod schema;
+mod args;
+mod failure;
+mod interrupt;
+mod log;
+mod progress;
+mod schema;
+mod shot;
+mod simulate;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Cloth simulated only as finely as the shot's camera can see it.
+#[derive(Parser, Debug)]
+#[command(name = "shotsilk", version, about, long_about = None)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    log: log::LogArgs,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// Simulate a shot into a run folder
+    Simulate(simulate::SimulateArgs),
+    /// Print the JSON Schema of the shot file
+    Schema,
+}
+
+/// Parses the arguments, runs the command, prints its error once.
+pub fn main() -> ExitCode {
+    // clap prints usage errors itself and ends with its exit code 2.
+    let cli = Cli::parse();
+    cli.log.install();
+    let result = match cli.command {
+        Command::Simulate(args) => simulate::run(&args, cli.log),
+        Command::Schema => {
+            println!("{}", schema::run());
+            Ok(())
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            tracing::error!("{error:#}");
+            failure::exit_code(&error)
+        }
+    }
+}

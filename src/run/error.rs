@@ -69,6 +69,11 @@ pub enum StateError {
 }
 
 impl RunError {
+    /// True if what was given is no run, a damaged one or the wrong one; false if the system failed.
+    pub fn is_bad_input(&self) -> bool {
+        !matches!(self, RunError::Io { .. })
+    }
+
     pub(super) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self + use<> {
         let path = path.to_owned();
         move |source| RunError::Io { action, path, source }

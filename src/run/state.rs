@@ -55,6 +55,7 @@ fn put_report(writer: &mut ByteWriter, report: &FrameReport) {
         intersections,
         steps_taken,
         largest_stretch,
+        trapped_nodes,
         warnings,
     } = report;
     writer.put(stages.entries().map(|(_, seconds)| seconds));
@@ -62,6 +63,7 @@ fn put_report(writer: &mut ByteWriter, report: &FrameReport) {
     writer.put(*steps_taken);
     writer.put(u8::from(intersections.is_some()));
     writer.put(intersections.unwrap_or(0) as u64);
+    writer.count(*trapped_nodes);
     writer.count(warnings.len());
     for warning in warnings {
         writer.text(warning);
@@ -87,6 +89,7 @@ fn get_report(reader: &mut ByteReader) -> Result<FrameReport, StateError> {
     let steps_taken = reader.get("step count")?;
     let counted = reader.get::<u8>("intersection flag")?;
     let intersections: u64 = reader.get("intersection count")?;
+    let trapped_nodes = reader.count("trapped node count")?;
     let warnings = get_warnings(reader)?;
     Ok(FrameReport {
         stages,
@@ -96,6 +99,7 @@ fn get_report(reader: &mut ByteReader) -> Result<FrameReport, StateError> {
         intersections: (counted != 0).then_some(intersections as usize),
         steps_taken,
         largest_stretch,
+        trapped_nodes,
         warnings,
     })
 }

@@ -8,7 +8,7 @@ use super::RunError;
 use crate::sim::{Frame, FrameReport};
 
 /// The columns in order. More may follow in later versions; these stay first.
-pub const STATS_COLUMNS: [&str; 21] = [
+pub const STATS_COLUMNS: [&str; 22] = [
     "frame",
     "time_s",
     "faces",
@@ -30,6 +30,7 @@ pub const STATS_COLUMNS: [&str; 21] = [
     "intersections",
     "steps_taken",
     "largest_stretch",
+    "trapped_nodes",
 ];
 
 /// Appends rows; each is in the file when `append` returns.
@@ -93,6 +94,7 @@ pub(super) fn row(shown: i64, frame: &Frame) -> String {
         intersections,
         steps_taken,
         largest_stretch,
+        trapped_nodes,
         warnings: _,
     } = &frame.report;
     let mut fields = vec![
@@ -111,6 +113,7 @@ pub(super) fn row(shown: i64, frame: &Frame) -> String {
         intersections.map(|count| count.to_string()).unwrap_or_default(),
         steps_taken.to_string(),
         largest_stretch.to_string(),
+        trapped_nodes.to_string(),
     ]);
     debug_assert_eq!(fields.len(), STATS_COLUMNS.len());
     fields.join(",")

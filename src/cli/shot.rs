@@ -1,0 +1,128 @@
+//! From the arguments to a shot that can be simulated.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use anyhow::{Context, Result};
+
+use super::args::{FrameRange, ShotArgs};
+use super::failure::Failure;
+use super::interrupt::Interrupt;
+use crate::run::{InputHasher, RUN_FORMAT, RunInfo, cpu_features};
+use crate::scene::{FileSystem, LoadOptions, LoadedShot, Scene, Surface, load};
+use crate::sim::{Frame, SimSettings, Simulation};
+
+/// A loaded shot and which of its frames are wanted.
+pub struct Shot {
+    pub scene: Arc<Scene>,
+    pub settings: SimSettings,
+    pub frames: FrameRange,
+    pub info: RunInfo,
+}
+
+impl Shot {
+    /// # Errors
+    /// If the shot cannot be loaded, or does not say where it ends.
+    pub fn open(args: &ShotArgs) -> Result<Self> {
+        let path = args.shot.clone().ok_or_else(|| Failure::Usage("name a shot".into()))?;
+        let options = LoadOptions {
+            shot: path.clone(),
+            camera: args.camera.clone(),
+            sets: args.sets.clone(),
+            fps: args.fps,
+        };
+        let loaded = load(&options, &FileSystem).map_err(Failure::from)?;
+        for warning in &loaded.warnings {
+            tracing::warn!("{warning}");
+        }
+        let frames = frames(args, &loaded.scene)
+            .with_context(|| format!("cannot simulate {:?}", path.display()))?;
+        let settings = SimSettings { sizing: args.sizing_mode() };
+        let info = run_info(&loaded, args, settings);
+        Ok(Self { scene: Arc::new(loaded.scene), settings, frames, info })
+    }
+
+    pub fn surfaces(&self) -> Vec<Arc<Surface>> {
+        self.scene.obstacles.iter().map(|o| o.surface.clone()).collect()
+    }
+
+    /// Simulates frame 0 to the last wanted one and hands each to `visit`.
+    ///
+    /// # Errors
+    /// If the simulation fails, `visit` does, or the user asks to stop: after the frame in work.
+    pub fn simulate(
+        &self,
+        interrupt: &Interrupt,
+        mut visit: impl FnMut(Frame) -> Result<()>,
+    ) -> Result<()> {
+        let (mut simulation, frame) =
+            Simulation::start(self.scene.clone(), self.settings).map_err(Failure::from)?;
+        visit(frame)?;
+        for _ in 0..self.frames.last {
+            if let Some(signal) = interrupt.requested() {
+                return Err(Failure::Interrupted(signal).into());
+            }
+            visit(simulation.advance().map_err(Failure::from)?)?;
+        }
+        Ok(())
+    }
+}
+
+/// The frames asked for; without a wish those of the scene; where it runs on, those of its camera.
+fn frames(args: &ShotArgs, scene: &Scene) -> Result<FrameRange> {
+    if let Some(frames) = args.frames {
+        return Ok(frames);
+    }
+    let camera_last = scene.viewers.first().map(|path| path.frame_range()[1].round() as u32);
+    let last = match (scene.last_frame, camera_last) {
+        (Some(scene), Some(camera)) if camera > 0 => scene.min(camera),
+        (Some(last), _) => last,
+        (None, Some(last)) if last > 0 => last,
+        (None, _) => {
+            let why = "neither shot nor camera says how many frames there are: use --frames";
+            return Err(Failure::Usage(why.into()).into());
+        }
+    };
+    Ok(FrameRange { first: 0, last })
+}
+
+fn run_info(loaded: &LoadedShot, args: &ShotArgs, settings: SimSettings) -> RunInfo {
+    let sizing = serde_json::to_value(settings.sizing).expect("sizing is plain data");
+    let mut recorded = loaded.resolved.clone();
+    recorded["sizing_mode"] = sizing;
+    let mut hasher = InputHasher::new(&recorded);
+    for file in &loaded.files_read {
+        hasher.add_file(file.sha256.as_bytes());
+    }
+    RunInfo {
+        shotsilk_run: RUN_FORMAT,
+        program_version: env!("CARGO_PKG_VERSION").to_owned(),
+        shot: loaded.scene.name.clone(),
+        sizing_mode: args.sizing.name().to_owned(),
+        fps: loaded.scene.fps,
+        first_frame: loaded.scene.first_frame,
+        garments: loaded.scene.garments.iter().map(|g| g.name.clone()).collect(),
+        obstacles: loaded.scene.obstacles.iter().map(|o| o.name.clone()).collect(),
+        input_hash: hasher.finish(),
+        cpu_features: cpu_features(),
+        adapter: None,
+        settings: recorded,
+    }
+}
+
+/// Uses so many threads wherever work is shared out.
+///
+/// # Errors
+/// If the threads cannot be started.
+pub fn set_threads(threads: Option<u16>) -> Result<()> {
+    let Some(threads) = threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(usize::from(threads))
+        .build_global()
+        .context("cannot start the threads")
+}
+
+/// True if the path is a folder that `simulate` wrote.
+pub fn is_run(path: &Path) -> bool {
+    crate::run::RunReader::is_run(path)
+}

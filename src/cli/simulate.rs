@@ -1,0 +1,65 @@
+//! `shotsilk simulate`: a shot into a run folder.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result};
+use clap::Args;
+
+use super::args::ShotArgs;
+use super::failure::Failure;
+use super::interrupt::Interrupt;
+use super::log::LogArgs;
+use super::progress::{Progress, ProgressMode};
+use super::shot::{Shot, set_threads};
+use crate::run::{RunWriter, WriteOptions};
+
+#[derive(Args, Debug)]
+pub struct SimulateArgs {
+    #[command(flatten)]
+    shot: ShotArgs,
+    /// The run folder to write
+    #[arg(long, short, value_name = "FOLDER")]
+    out: PathBuf,
+    /// Replace a run that the folder holds
+    #[arg(long)]
+    overwrite: bool,
+    /// Write every garment at every frame as OBJ
+    #[arg(long)]
+    obj: bool,
+    /// Write every obstacle at every frame as OBJ
+    #[arg(long)]
+    obj_obstacles: bool,
+}
+
+/// # Errors
+/// If the shot is bad, the folder cannot be written, the simulation fails or is interrupted.
+pub fn run(args: &SimulateArgs, log: LogArgs) -> Result<()> {
+    set_threads(args.shot.threads)?;
+    let shot = Shot::open(&args.shot)?;
+    let options = WriteOptions {
+        obj: args.obj,
+        obj_obstacles: args.obj_obstacles,
+        overwrite: args.overwrite,
+    };
+    let mut writer = RunWriter::create(&args.out, &shot.info, &shot.surfaces(), options)
+        .map_err(Failure::from)?;
+    let interrupt = Interrupt::install().context("cannot listen for signals")?;
+    let frame_count = u64::from(shot.frames.last) + 1;
+    let mut progress = Progress::new(frame_count, ProgressMode::detect(log));
+    let result = shot.simulate(&interrupt, |frame| {
+        for warning in &frame.report.warnings {
+            tracing::warn!("frame {}: {warning}", frame.number);
+        }
+        if shot.frames.contains(frame.number) {
+            writer.write(&frame).map_err(Failure::from)?;
+        }
+        let shown = i64::from(frame.number) + shot.info.first_frame;
+        progress.frame(shown, frame.face_count(), frame.report.stages.total());
+        Ok(())
+    });
+    progress.finish();
+    result.with_context(|| format!("cannot simulate the shot {:?}", shot.info.shot))?;
+    writer.finish().map_err(Failure::from)?;
+    println!("{}", args.out.display());
+    Ok(())
+}
