@@ -82,7 +82,7 @@ fn message(shot: &str, sets: &[&str]) -> String {
 /// The message for the good shot with one thing replaced.
 fn message_after(from: &str, to: &str) -> String {
     assert!(SHOT.contains(from), "{from}");
-    message(&SHOT.replace(from, to), &[])
+    message(&SHOT.replacen(from, to, 1), &[])
 }
 
 #[test]
@@ -197,12 +197,12 @@ fn bad_shots_are_answered_with_place_value_and_limit() {
             "\"motion\": \"lif\"",
             "no motion \"lif\": did you mean \"lift\"?",
         ),
-        ("[2, 3]", "[2, 5]", "w/a.json:18:29: handles.0.nodes.1 is 5, but must be less than 5"),
+        ("[2, 3]", "[2, 5]", "w/a.json:18:31: handles.0.nodes.1 is 5, but must be less than 5"),
         ("[2, 3]", "[2, 4]", "handles.0.nodes.1 is 4, but must be a node of at least one face"),
         ("[2, 3]", "[]", "handles.0.nodes is empty"),
         ("\"end_time\": 1.5", "\"end_time\": 0", "end_time is 0, but must be greater than 0"),
         ("\"end_time\": 1.5", "\"garment\": 2", "garment is 2, but must be less than 1"),
-        ("\"time\": 2", "\"time\": 0", "w/a.json:13:24: motion \"lift\": key 1 at 0 s"),
+        ("\"time\": 2", "\"time\": 0", "w/a.json:13:26: motion \"lift\": key 1 at 0 s"),
         ("\"fps\": 2", "\"body\": 1", "body is 1, but must be less than 1"),
         ("\"thicken\": 2", "\"thicken\": 0", "fabrics.cotton.thicken is 0"),
         ("\"thicken\": 2", "\"density\": 1", "fabrics.cotton has both file and density"),
@@ -218,7 +218,7 @@ fn bad_shots_are_answered_with_place_value_and_limit() {
 
 #[test]
 fn a_bad_mesh_is_named_with_its_line() {
-    let sheet = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n";
+    let sheet = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\n";
     let source =
         files().with("w/a.json", SHOT.as_bytes()).with("w/meshes/sheet.obj", sheet.as_bytes());
     let options = LoadOptions { shot: "w/a.json".into(), ..LoadOptions::default() };
@@ -265,7 +265,7 @@ fn bad_cameras_are_answered_with_the_place() {
 
 #[test]
 fn the_frame_rate_of_the_command_line_ends_the_dispute() {
-    let shot = SHOT.replace("\"view\": {", "\"fps\": 30, \"view\": {");
+    let shot = SHOT.replacen("\"view\": {", "\"fps\": 30, \"view\": {", 1);
     let source = files().with("w/a.json", shot.into_bytes());
     let mut options = LoadOptions { shot: "w/a.json".into(), ..LoadOptions::default() };
     assert!(load(&options, &source).is_err());
@@ -323,7 +323,7 @@ fn a_wrapper_and_overrides_change_an_imported_scene_by_native_names() {
     assert_eq!((garment.view.nu_back, garment.sizing.refine_velocity), (0.7, 2.0));
     assert!(!garment.two_sided);
     let error = message(&wrapper.replace("\"nu_back\": 0.7", "\"nu_back\": 7"), &[]);
-    assert!(error.starts_with("w/a.json:2:44: garments.0.view.nu_back is 7"), "{error}");
+    assert!(error.starts_with("w/a.json:2:43: garments.0.view.nu_back is 7"), "{error}");
 }
 
 #[test]
@@ -333,7 +333,7 @@ fn what_is_neither_shot_nor_scene_is_refused() {
     assert!(message("[1]", &[]).starts_with(neither));
     assert!(message("{", &[]).starts_with("w/a.json:1:1: "));
     let scene_error = message(&SCENE.replace("[0.01, 0.2]", "[0.01]"), &[]);
-    assert!(scene_error.contains("a.json:6:50: size must be a list"), "{scene_error}");
+    assert!(scene_error.contains("a.json:6:52: size must be a list"), "{scene_error}");
     let bad = message(&SCENE.replace("\"vertices\": [0]", "\"vertices\": [7]"), &[]);
     assert!(bad.contains("w/a.json:9:31: handles.0.nodes.0 is 7"), "{bad}");
 }
@@ -403,4 +403,12 @@ fn the_square_has_no_velocity_criterion_and_stops_at_its_keys() {
     assert!(!scene.stages.strain_limiting);
     let motion = &scene.motions[scene.handles[0].motion.unwrap()];
     assert_eq!(motion.pose(6.5).translation, DVec3::new(0.45, 0.0, 0.0));
+}
+
+#[test]
+fn the_example_of_the_manual_is_a_shot_file() {
+    let manual = include_str!("../../docs/shot-file.md");
+    let example = manual.split("```").nth(1).unwrap().strip_prefix("jsonc").unwrap();
+    let file: ShotFile = Node::parse("shot-file.md", example).unwrap().deserialize().unwrap();
+    assert_eq!((file.shotsilk, file.garments.len(), file.handles.len()), (SHOT_VERSION, 1, 1));
 }

@@ -1,5 +1,5 @@
 //! What is simulated: garments, fabrics, obstacles, motions, handles, air. Plain data in SI units,
-//! as [`load`] resolves it from a [`native`] shot file or an imported scene.
+//! as [`load()`] resolves it from a [`native`] shot file or an imported scene.
 
 mod arcsim;
 mod document;
@@ -10,6 +10,7 @@ mod mot;
 mod motion;
 pub mod native;
 mod obj;
+mod pose;
 mod resolve;
 mod settings;
 mod source;
@@ -17,7 +18,8 @@ mod source;
 pub use error::{LoadError, Place, Problem};
 pub use fabric::{Fabric, MeasuredFabric, StretchStiffness};
 pub use load::{LoadOptions, LoadedShot, load, shot_schema};
-pub use motion::{Motion, MotionError, MotionKey, Pose, PoseVelocity};
+pub use motion::{Motion, MotionError, MotionKey};
+pub use pose::{Pose, PoseVelocity};
 pub use settings::{Air, Contact, SizingSettings, StageSwitches, ViewRule, ViewSettings};
 pub use source::{EmbeddedFiles, FileRead, FileSource, FileSystem};
 

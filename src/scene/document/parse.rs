@@ -89,9 +89,9 @@ impl<'a> Lines<'a> {
             ast::Value::NullKeyword(_) => Value::Null,
             ast::Value::BooleanLit(literal) => Value::Bool(literal.value),
             ast::Value::StringLit(literal) => Value::String(literal.value.to_string()),
-            ast::Value::NumberLit(literal) => match literal.value.parse() {
-                Ok(number) => Value::Number(number),
-                Err(_) => {
+            ast::Value::NumberLit(literal) => match number(literal.value) {
+                Some(number) => Value::Number(number),
+                None => {
                     let what = format!("the number {} is out of range", literal.value);
                     return Err(Problem::Syntax(what).at(place));
                 }
@@ -115,6 +115,14 @@ impl<'a> Lines<'a> {
             members.push(Member { name, place, node: self.node(&property.value)? });
         }
         Ok(members)
+    }
+}
+
+/// The nearest double, which serde_json's own reading does not promise; `None` beyond its range.
+fn number(text: &str) -> Option<serde_json::Number> {
+    match text.parse::<i64>() {
+        Ok(integer) => Some(integer.into()),
+        Err(_) => serde_json::Number::from_f64(text.parse().ok()?),
     }
 }
 

@@ -11,15 +11,34 @@ impl Node {
     /// # Errors
     /// What the type does not accept, with the place of the offending key or value.
     pub fn deserialize<T: DeserializeOwned>(&self) -> Result<T, LoadError> {
+        serde_json::from_value(self.json()).map_err(|_| self.error::<T>())
+    }
+
+    fn json(&self) -> serde_json::Value {
+        match &self.value {
+            Value::Null => serde_json::Value::Null,
+            Value::Bool(value) => (*value).into(),
+            Value::Number(number) => number.clone().into(),
+            Value::String(string) => string.as_str().into(),
+            Value::Array(elements) => elements.iter().map(Node::json).collect(),
+            Value::Object(members) => {
+                members.iter().map(|m| (m.name.clone(), m.node.json())).collect()
+            }
+        }
+    }
+
+    /// Reads the tree once more, as text, to learn where it goes wrong.
+    fn error<T: DeserializeOwned>(&self) -> LoadError {
         let mut written = Written::default();
         written.node(self);
-        serde_json::from_str(&written.text).map_err(|error| {
-            let message = error.to_string();
-            // The text is one line; the position is of no meaning to the reader.
-            let what = message.split(" at line 1 column").next().unwrap_or(&message).to_owned();
-            let place = written.place(error.column().saturating_sub(1)).unwrap_or(&self.place);
-            Problem::Shape(what).at(place.clone())
-        })
+        let Err(error) = serde_json::from_str::<T>(&written.text) else {
+            return Problem::Shape("a value has the wrong form".into()).at(self.place.clone());
+        };
+        let message = error.to_string();
+        // The text is one line; the position is of no meaning to the reader.
+        let what = message.split(" at line 1 column").next().unwrap_or(&message).to_owned();
+        let place = written.place(error.column().saturating_sub(1)).unwrap_or(&self.place);
+        Problem::Shape(what).at(place.clone())
     }
 }
 
@@ -103,6 +122,14 @@ mod tests {
         names: Vec<String>,
         #[serde(default)]
         corner: [f64; 2],
+    }
+
+    #[test]
+    fn numbers_are_the_nearest_doubles() {
+        for number in [0.1 + 0.2, 5.9469658000000004e-6, 1.0 / 3.0, 9.5e-300, -23.191698e-6] {
+            let text = format!("{number:?}");
+            assert_eq!(Node::parse("x", &text).unwrap().deserialize::<f64>().unwrap(), number);
+        }
     }
 
     #[test]

@@ -5,8 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{SizingFile, ViewFile};
-use crate::scene::Pose;
-use crate::scene::motion::PoseVelocity;
+use crate::scene::{Pose, PoseVelocity};
 
 /// x' = translate + scale R x.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
