@@ -6,6 +6,7 @@
 //! No other module knows wgpu.
 
 mod bounds;
+mod buffer;
 mod camera_glyph;
 mod cloth;
 mod colour;
