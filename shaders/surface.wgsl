@@ -20,11 +20,11 @@ struct Material {
 
 // Lights stand still in the world, so that all views agree. Z is up.
 const KEY_DIRECTION: vec3<f32> = vec3<f32>(-0.7005, -0.4003, 0.5908);
-const KEY_LIGHT: vec3<f32> = vec3<f32>(0.96, 0.93, 0.88);
+const KEY_LIGHT: vec3<f32> = vec3<f32>(0.90, 0.87, 0.82);
 const FILL_DIRECTION: vec3<f32> = vec3<f32>(0.7845, 0.5883, 0.1961);
 const FILL_LIGHT: vec3<f32> = vec3<f32>(0.14, 0.15, 0.18);
-const SKY_LIGHT: vec3<f32> = vec3<f32>(0.42, 0.43, 0.46);
-const GROUND_LIGHT: vec3<f32> = vec3<f32>(0.22, 0.21, 0.20);
+const SKY_LIGHT: vec3<f32> = vec3<f32>(0.47, 0.48, 0.51);
+const GROUND_LIGHT: vec3<f32> = vec3<f32>(0.27, 0.26, 0.25);
 // How far the key light reaches around the terminator.
 const KEY_WRAP: f32 = 0.12;
 // The light that `modelling` = 0 leaves.

@@ -90,6 +90,11 @@ impl Gpu {
         let (device, queue) = adapter.request_device(&descriptor).await.map_err(|e| {
             RenderError::NoDevice { adapter: adapter_name.clone(), reason: e.to_string() }
         })?;
+        Ok(Self::from_device(device, queue, adapter_name))
+    }
+
+    /// A device that a window has opened. Takes over the handling of its errors.
+    pub fn from_device(device: wgpu::Device, queue: wgpu::Queue, adapter_name: String) -> Self {
         let error = Arc::new(Mutex::new(None));
         let record = error.clone();
         device.on_uncaptured_error(Arc::new(move |e: wgpu::Error| {
@@ -99,7 +104,7 @@ impl Gpu {
                 .unwrap_or_else(PoisonError::into_inner)
                 .get_or_insert_with(|| e.to_string());
         }));
-        Ok(Self { device, queue, adapter_name, error })
+        Self { device, queue, adapter_name, error }
     }
 
     /// As the driver calls itself.

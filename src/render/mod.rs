@@ -6,6 +6,7 @@
 //! No other module knows wgpu.
 
 mod bounds;
+mod buffer;
 mod camera_glyph;
 mod cloth;
 mod colour;
@@ -39,7 +40,7 @@ pub use draw_list::{DrawList, Line, Material, SurfaceBatch, SurfaceVertex};
 pub use gpu::{AdapterChoice, Gpu, RenderError};
 pub use headless::Headless;
 pub use legend::{draw_legend, legend_size};
-pub use options::{Background, PictureOptions, Shading};
+pub use options::{Background, PictureOptions, Shading, size_of_width};
 pub use renderer::Renderer;
 pub use target::{TARGET_FORMAT, Target, TargetTexture, WINDOW_FORMAT};
 pub use text::{Align, Face, draw_text, text_width};

@@ -1,12 +1,15 @@
 //! How a frame is shown. Plain data with defaults.
 
+use crate::shot::View;
+
 use super::colour::Srgb;
 use super::colour_by::{ColourBy, LogRange};
 
 /// How a frame is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureOptions {
-    /// Width and height (px); `None` takes the view's own resolution.
+    /// Width and height (px); `None` takes the view's own resolution. The view fills the picture:
+    /// one of another shape is stretched, see [`size_of_width`].
     pub size: Option<[u32; 2]>,
     pub colour_by: ColourBy,
     pub shading: Shading,
@@ -19,6 +22,13 @@ pub struct PictureOptions {
     pub background: Background,
     /// Height of the legend's text (px); `None` draws no legend.
     pub legend_px: Option<f32>,
+}
+
+/// The size (px) of a picture of some width in the view's own shape.
+pub fn size_of_width(view: &View, width: u32) -> [u32; 2] {
+    let [full_width, full_height] = view.resolution.map(|px| f64::from(px.max(1)));
+    let height = f64::from(width) * full_height / full_width;
+    [width.max(1), (height.round() as u32).max(1)]
 }
 
 /// Whether light sees the folds or the faces.

@@ -197,6 +197,57 @@ fn equal_lists_give_equal_pictures_whatever_was_drawn_before() {
     assert!(first == picture(&small));
 }
 
+#[test]
+fn a_line_behind_cloth_shines_through_faintly() {
+    let view = overhead(SIZE);
+    let across = [DVec3::new(-0.4, 0.0013, 0.0), DVec3::new(0.4, 0.0013, 0.0)];
+    let darkness_at = |cloth_height: f64| {
+        let options = bare(view_factor());
+        let cloth = frame([square(cloth_height, 0.1)]);
+        let mut list = DrawList::new(&cloth, &[], &options);
+        let without = headless().draw(&list, &view, SIZE).unwrap();
+        list.push_line(across[0], across[1], [0, 0, 0, 255], 3.0);
+        let with = headless().draw(&list, &view, SIZE).unwrap();
+        f32::from(without.get_pixel(100, 99).0[1]) - f32::from(with.get_pixel(100, 99).0[1])
+    };
+    let (in_front, behind) = (darkness_at(-0.3), darkness_at(0.3));
+    assert!(in_front > 150.0, "{in_front}");
+    assert!((5.0..60.0).contains(&behind), "{behind}");
+}
+
+#[test]
+fn the_witness_sees_the_shot_cameras_body_and_frustum() {
+    let cloth = frame([square(0.0, 1.0)]);
+    let shot = look_at(DVec3::new(2.0, 0.5, 0.8), DVec3::ZERO, 30.0, [1280, 720]);
+    let bounds = Bounds::of_cloth(&cloth);
+    let subject = WitnessSubject { cloth: bounds, views: vec![shot] };
+    let witness = witness_view(&subject, [400, 300]);
+    let trail = CameraTrail { eyes: vec![shot.eye], ..Default::default() };
+    let frustum_depth = ShotCamera::frustum_depth_past(&shot, bounds);
+    assert!((2.5..3.5).contains(&frustum_depth), "{frustum_depth} m");
+    let camera = ShotCamera { view: &shot, trail: &trail, frustum_depth };
+    let options = bare(view_factor());
+    let mut headless = headless();
+    let picture = headless.witness_picture(&cloth, &[], &witness, &camera, &options).unwrap();
+    let without = headless.picture(&cloth, &[], &witness, &options).unwrap();
+    let dark = |image: &RgbaImage| count(image, |[r, g, b]| r.max(g).max(b) < 90);
+    assert!(dark(&picture) > dark(&without) + 400, "{} px", dark(&picture));
+    let body = witness.point_in_image(shot.eye + shot.back * 0.05).unwrap();
+    assert!(picture.get_pixel(body.x as u32, body.y as u32).0[1] < 110);
+}
+
+#[test]
+fn a_scene_far_from_the_origin_looks_the_same() {
+    let far = DVec3::new(4_096.0, -8_192.0, 512.0);
+    let moved = |offset: DVec3| {
+        let mut mesh = square(0.0, 1.0);
+        mesh.position.iter_mut().for_each(|p| *p += offset);
+        let view = View { eye: overhead(SIZE).eye + offset, ..overhead(SIZE) };
+        headless().picture(&frame([mesh]), &[], &view, &PictureOptions::default()).unwrap()
+    };
+    assert!(moved(DVec3::ZERO) == moved(far));
+}
+
 /// `cargo test --release -- --ignored --nocapture a_large_picture` prints what a picture costs.
 #[test]
 #[ignore = "measures time"]

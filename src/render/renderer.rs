@@ -5,6 +5,7 @@ use glam::DMat4;
 
 use crate::shot::View;
 
+use super::buffer::{GrowingBuffer, Storage};
 use super::draw_list::{DrawList, Line, Material, SurfaceVertex};
 use super::gpu::{Gpu, RenderError};
 use super::passes::Passes;
@@ -13,8 +14,6 @@ use super::uniforms::{MaterialUniforms, SceneUniforms};
 
 /// Distance of materials in their buffer (bytes): what every adapter can address.
 const MATERIAL_STRIDE: usize = 256;
-/// A buffer that must grow gets this much room at least (bytes).
-const BUFFER_SIZE_MIN: u64 = 1 << 16;
 /// Sizes of targets remembered: shot and witness, and a spare for a window being resized.
 const ATTACHMENTS_KEPT: usize = 3;
 
@@ -216,55 +215,5 @@ fn material_uniforms(material: &Material) -> MaterialUniforms {
         sheen: material.sheen,
         modelling: material.modelling,
         ..Zeroable::zeroed()
-    }
-}
-
-/// A buffer that is replaced by a larger one when its content does not fit.
-struct GrowingBuffer {
-    label: &'static str,
-    usage: wgpu::BufferUsages,
-    buffer: Option<wgpu::Buffer>,
-    used: u64,
-}
-
-/// What became of a buffer when it was written.
-#[derive(PartialEq, Eq)]
-enum Storage {
-    Kept,
-    New,
-}
-
-impl GrowingBuffer {
-    fn new(label: &'static str, usage: wgpu::BufferUsages) -> Self {
-        Self { label, usage: usage | wgpu::BufferUsages::COPY_DST, buffer: None, used: 0 }
-    }
-
-    /// Replaces the content by the parts, one after the other. Their sizes are multiples of 4
-    /// bytes, as those of all vertices and uniforms are.
-    fn write<T: bytemuck::Pod>(&mut self, gpu: &Gpu, parts: &[&[T]]) -> Storage {
-        let size: u64 = parts.iter().map(|part| size_of_val(*part) as u64).sum();
-        let fits = self.buffer.as_ref().is_some_and(|buffer| buffer.size() >= size);
-        let buffer = match self.buffer.take() {
-            Some(buffer) if fits => buffer,
-            _ => gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(self.label),
-                size: size.next_power_of_two().max(BUFFER_SIZE_MIN),
-                usage: self.usage,
-                mapped_at_creation: false,
-            }),
-        };
-        let mut offset = 0;
-        for part in parts {
-            gpu.queue.write_buffer(&buffer, offset, bytemuck::cast_slice(part));
-            offset += size_of_val(*part) as u64;
-        }
-        self.buffer = Some(buffer);
-        self.used = size;
-        if fits { Storage::Kept } else { Storage::New }
-    }
-
-    /// The content; `None` if there is none.
-    fn slice(&self) -> Option<wgpu::BufferSlice<'_>> {
-        self.buffer.as_ref().filter(|_| self.used > 0).map(|buffer| buffer.slice(..self.used))
     }
 }

@@ -33,7 +33,7 @@ pub struct WitnessSubject {
 /// Eyes beyond this many radii of the subject are not framed.
 const EYE_DISTANCE_MAX: f64 = 4.5;
 /// Corners of the shot's frame beyond this many radii of the subject are not framed.
-const GATE_DISTANCE_MAX: f64 = 1.25;
+const GATE_DISTANCE_MAX: f64 = 1.1;
 /// Room for the camera's body behind its eye, as a share of the eye's distance.
 const BODY_ROOM: f64 = 0.06;
 /// Above the horizon (rad): three-quarter view, floors seen as floors.
@@ -42,7 +42,7 @@ const AZIMUTHS: usize = 48;
 /// Vertical field of view (rad): long enough that little is distorted.
 const FOV_Y: f64 = 0.6;
 /// Part of the frame that is left free on each side.
-const MARGIN: f64 = 0.07;
+const MARGIN: f64 = 0.05;
 /// Radius of a subject without extent (m).
 const RADIUS_MIN: f64 = 0.05;
 
