@@ -154,7 +154,7 @@ fn subject(footage: &Footage, camera: &CameraPath) -> Result<WitnessSubject> {
         }
         last = Some(frame);
     }
-    for frame in last {
+    if let Some(frame) = last {
         for (surface, &pose) in surfaces.iter().zip(&frame.obstacle_poses) {
             subject = subject.with_obstacle(surface, pose);
         }

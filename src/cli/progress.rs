@@ -111,6 +111,7 @@ fn in_words(time: Duration) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::FrameReport;
 
     #[test]
     fn the_time_left_is_the_mean_frame_times_the_frames_to_come() {
@@ -141,8 +142,15 @@ mod tests {
             [ProgressMode::Bar, ProgressMode::Lines, ProgressMode::Log, ProgressMode::Silent]
         {
             let mut progress = Progress::new(2, mode);
-            progress.frame(1001, 250, 0.5);
-            progress.frame(1002, 260, 0.5);
+            let frame = Frame {
+                number: 0,
+                time: 0.0,
+                garments: Vec::new(),
+                obstacle_poses: Vec::new(),
+                report: FrameReport::default(),
+            };
+            progress.frame(&frame, 1001);
+            progress.frame(&frame, 1001);
             assert_eq!(progress.done, 2);
             progress.finish();
         }
