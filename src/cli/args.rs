@@ -9,26 +9,26 @@ use crate::sim::SizingMode;
 /// Which shot, and what to change about it.
 #[derive(Args, Clone, Debug)]
 pub struct ShotArgs {
-    /// A shot file, an ARCSim scene, or a folder that `simulate` wrote; without one the shot that
-    /// comes with the program
+    /// A shot file or an ARCSim scene; to draw also a folder that `simulate` wrote; without one the
+    /// shot that comes with the program
     pub shot: Option<PathBuf>,
     /// Camera file that takes the place of the shot camera
     #[arg(long, value_name = "FILE")]
     pub camera: Option<PathBuf>,
     /// Override a setting: path.to.field=value; may be repeated
-    #[arg(long = "set", value_name = "PATH=VALUE")]
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
     pub sets: Vec<String>,
     /// Frames per second, where scene and camera disagree
-    #[arg(long)]
+    #[arg(long, value_parser = parse_rate, allow_negative_numbers = true)]
     pub fps: Option<f64>,
-    /// Frames, both ends included: N means 0..N
+    /// Frames, both ends included, counted from 0 whatever the shot calls them: N means 0..N
     #[arg(long, value_name = "A..B", value_parser = parse_frames)]
     pub frames: Option<FrameRange>,
     /// How the resolution of the cloth is chosen
     #[arg(long, value_enum, default_value_t = Sizing::View)]
     pub sizing: Sizing,
     /// Edge length of uniform sizing (m); without it the finest of the garment's sizing
-    #[arg(long, value_name = "METRES", value_parser = parse_length)]
+    #[arg(long, value_name = "METRES", value_parser = parse_length, allow_negative_numbers = true)]
     pub edge_length: Option<f64>,
     /// Threads to compute with; without it all there are. The result does not depend on it
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
@@ -97,11 +97,26 @@ fn parse_frames(text: &str) -> Result<FrameRange, String> {
 }
 
 fn parse_length(text: &str) -> Result<f64, String> {
-    let length: f64 = text.parse().map_err(|_| format!("{text:?} is not a number"))?;
-    if length > 0.0 && length.is_finite() {
-        Ok(length)
+    parse_positive(text, "m is not a length above 0")
+}
+
+fn parse_rate(text: &str) -> Result<f64, String> {
+    parse_positive(text, "frames a second are not a rate above 0")
+}
+
+fn parse_positive(text: &str, otherwise: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| format!("{text:?} is not a number"))?;
+    if number > 0.0 && number.is_finite() {
+        Ok(number)
     } else {
-        Err(format!("{length} m is not a length above 0"))
+        Err(format!("{number} {otherwise}"))
+    }
+}
+
+fn parse_override(text: &str) -> Result<String, String> {
+    match text.split_once('=') {
+        Some((path, _)) if !path.trim().is_empty() => Ok(text.to_owned()),
+        _ => Err("an override is path.to.field=value, such as view.nu_out=0.1".to_owned()),
     }
 }
 
@@ -125,10 +140,19 @@ mod tests {
     }
 
     #[test]
-    fn lengths_are_positive_and_finite() {
-        assert_eq!(parse_length("0.02"), Ok(0.02));
+    fn lengths_and_rates_are_positive_and_finite() {
+        assert_eq!((parse_length("0.02"), parse_rate("24")), (Ok(0.02), Ok(24.0)));
         for text in ["0", "-1", "inf", "NaN", "ten"] {
             assert!(parse_length(text).is_err(), "{text:?}");
+            assert!(parse_rate(text).is_err(), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn overrides_name_a_setting() {
+        assert!(parse_override("garments.0.name=").is_ok());
+        for text in ["fps", "=3", " =3", ""] {
+            assert!(parse_override(text).is_err(), "{text:?}");
         }
     }
 }

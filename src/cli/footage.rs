@@ -20,7 +20,7 @@ use crate::sim::Frame;
 /// A run that can be drawn.
 pub struct Footage {
     reader: RunReader,
-    camera: Option<CameraPath>,
+    camera: CameraPath,
     frames: Vec<u32>,
     /// Removes the temporary run with the footage.
     _spool: Option<TempDir>,
@@ -30,7 +30,7 @@ impl Footage {
     /// Every `every`-th of the frames asked for.
     ///
     /// # Errors
-    /// If shot or run cannot be read, or the simulation fails or is interrupted.
+    /// If shot or run cannot be read or have no camera, or the simulation fails or is interrupted.
     pub fn open(args: &ShotArgs, every: u32, interrupt: &Interrupt, log: LogArgs) -> Result<Self> {
         match &args.shot {
             Some(path) if path.is_dir() => {
@@ -64,11 +64,11 @@ impl Footage {
         let camera = match &args.camera {
             Some(path) => {
                 let fps = args.fps.is_none().then_some(reader.info().fps);
-                Some(load_camera(path, fps, &FileSystem).map_err(Failure::from)?)
+                load_camera(path, fps, &FileSystem).map_err(Failure::from)?
             }
             None => {
                 let viewers = recorded_viewers(&reader.info().settings).map_err(Failure::from)?;
-                viewers.into_iter().next()
+                shot_camera(viewers, reader.info())?
             }
         };
         Ok(Self { reader, camera, frames, _spool: None })
@@ -76,6 +76,8 @@ impl Footage {
 
     fn of_shot(args: &ShotArgs, every: u32, interrupt: &Interrupt, log: LogArgs) -> Result<Self> {
         let shot = Shot::open(args)?;
+        // Before the simulation, which takes its time.
+        let camera = shot_camera(shot.scene.viewers.clone(), &shot.info)?;
         let frames = chosen_frames(shot.frames.first..=shot.frames.last, every);
         let spool = tempfile::tempdir().context("cannot create a folder for temporary frames")?;
         let folder = spool.path().join("run");
@@ -95,7 +97,6 @@ impl Footage {
         progress.finish();
         writer.finish().map_err(Failure::from)?;
         let reader = RunReader::open(&folder).map_err(Failure::from)?;
-        let camera = shot.scene.viewers.first().cloned();
         Ok(Self { reader, camera, frames, _spool: Some(spool) })
     }
 
@@ -119,15 +120,8 @@ impl Footage {
     }
 
     /// The shot camera.
-    ///
-    /// # Errors
-    /// If the shot has none.
-    pub fn camera(&self) -> Result<&CameraPath> {
-        self.camera.as_ref().ok_or_else(|| {
-            let why =
-                format!("the shot {:?} has no camera: name one with --camera", self.info().shot);
-            Failure::Usage(why).into()
-        })
+    pub fn camera(&self) -> &CameraPath {
+        &self.camera
     }
 
     /// The view settings of the garments, as recorded.
@@ -136,4 +130,12 @@ impl Footage {
         let view = |g: &serde_json::Value| serde_json::from_value(g["view"].clone()).ok();
         garments.into_iter().flatten().filter_map(view).collect()
     }
+}
+
+/// The first of the viewers.
+fn shot_camera(viewers: Vec<CameraPath>, info: &RunInfo) -> Result<CameraPath> {
+    viewers.into_iter().next().ok_or_else(|| {
+        let why = format!("the shot {:?} has no camera: name one with --camera", info.shot);
+        Failure::Usage(why).into()
+    })
 }

@@ -49,10 +49,7 @@ pub fn main() -> ExitCode {
         Command::Simulate(args) => simulate::run(&args, cli.log),
         Command::Render(args) => render::run(&args, cli.log),
         Command::Sheet(args) => sheet::run(&args, cli.log),
-        Command::Schema => {
-            println!("{}", schema::run());
-            Ok(())
-        }
+        Command::Schema => output::print(schema::run()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,5 +1,8 @@
-//! Files that appear under their name only when they are whole.
+//! What a command leaves behind: files that appear under their name only when they are whole,
+//! folders that stay only with something in them, and the line on stdout.
 
+use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -31,6 +34,8 @@ impl PendingFile {
             .prefix(".shotsilk-")
             .permissions_of_a_new_file()
             .tempfile_in(folder)
+            // Its text would name the temporary file.
+            .map_err(|error| io::Error::from(error.kind()))
             .with_context(cannot)?;
         Ok(Self { file, path: path.to_owned() })
     }
@@ -39,12 +44,54 @@ impl PendingFile {
     /// If the file system refuses.
     pub fn write_png(self, image: &RgbaImage) -> Result<()> {
         let cannot = || format!("cannot write {:?}", self.path.display());
-        let mut writer = std::io::BufWriter::new(self.file.as_file());
+        let mut writer = io::BufWriter::new(self.file.as_file());
         image.write_to(&mut writer, ImageFormat::Png).with_context(cannot)?;
-        std::io::Write::flush(&mut writer).with_context(cannot)?;
+        writer.flush().with_context(cannot)?;
         drop(writer);
         self.file.persist(&self.path).map_err(|e| e.error).with_context(cannot)?;
         Ok(())
+    }
+}
+
+/// A folder for outputs, made with those above it. Dropped while empty, it takes what it made away
+/// again.
+pub struct PendingFolder {
+    /// Deepest first.
+    made: Vec<PathBuf>,
+}
+
+impl PendingFolder {
+    /// # Errors
+    /// If the folder cannot be made or written, or is a file.
+    pub fn create(path: &Path) -> Result<Self> {
+        let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
+        let made = path.ancestors().take_while(is_missing).map(Path::to_owned).collect();
+        let folder = Self { made };
+        fs::create_dir_all(path).with_context(|| format!("cannot create {:?}", path.display()))?;
+        PendingFile::create(&path.join("probe"))?;
+        Ok(folder)
+    }
+}
+
+impl Drop for PendingFolder {
+    fn drop(&mut self) {
+        for folder in &self.made {
+            // Refused, as it should be, where there is something in it.
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// Prints a result. A reader that has gone away has read enough.
+///
+/// # Errors
+/// If it cannot be written for another reason, such as a full disk.
+pub fn print(result: impl std::fmt::Display) -> Result<()> {
+    match writeln!(io::stdout(), "{result}") {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(error).context("cannot write to stdout")
+        }
+        _ => Ok(()),
     }
 }
 
@@ -59,7 +106,7 @@ impl NewFilePermissions for tempfile::Builder<'_, '_> {
         {
             use std::os::unix::fs::PermissionsExt;
             // What the process's mask leaves of it.
-            self.permissions(std::fs::Permissions::from_mode(0o666))
+            self.permissions(fs::Permissions::from_mode(0o666))
         }
         #[cfg(not(unix))]
         self
@@ -86,5 +133,19 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         assert!(PendingFile::create(&folder.path().join("no/a.png")).is_err());
         assert!(PendingFile::create(folder.path()).is_err());
+    }
+
+    #[test]
+    fn a_folder_stays_only_with_something_in_it() {
+        let above = tempfile::tempdir().unwrap();
+        let path = above.path().join("a/b");
+        drop(PendingFolder::create(&path).unwrap());
+        assert_eq!(above.path().read_dir().unwrap().count(), 0);
+        let folder = PendingFolder::create(&path).unwrap();
+        PendingFile::create(&path.join("a.png")).unwrap().write_png(&RgbaImage::new(2, 2)).unwrap();
+        drop(folder);
+        assert!(path.join("a.png").is_file());
+        drop(PendingFolder::create(above.path()).unwrap());
+        assert!(above.path().is_dir());
     }
 }

@@ -75,14 +75,14 @@ impl<'a> Studio<'a> {
     /// Pictures will be `width` wide (px); `None` takes the shot's own resolution.
     ///
     /// # Errors
-    /// If there is no adapter or no camera, or a frame cannot be read.
+    /// If a frame cannot be read.
     pub fn new(
         footage: &'a Footage,
         gpu: Headless,
         args: &PictureArgs,
         width: Option<u32>,
     ) -> Result<Self> {
-        let camera = footage.camera()?.clone();
+        let camera = footage.camera().clone();
         let first_view = camera.view(f64::from(footage.frames()[0]));
         let size = width.map_or(first_view.resolution, |w| size_of_width(&first_view, w));
         let subject = subject(footage, &camera)?;

@@ -1,6 +1,5 @@
 //! `shotsilk render`: PNG frames.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -12,7 +11,7 @@ use super::failure::Failure;
 use super::footage::Footage;
 use super::interrupt::Interrupt;
 use super::log::LogArgs;
-use super::output::PendingFile;
+use super::output::{self, PendingFile, PendingFolder};
 use super::pictures::{PictureArgs, Studio};
 use super::progress::{Progress, ProgressMode};
 use crate::render::Headless;
@@ -56,9 +55,7 @@ const LEGEND_PX: f32 = 14.0;
 pub fn run(args: &RenderArgs, log: LogArgs) -> Result<()> {
     super::shot::set_threads(args.shot.threads)?;
     let gpu = Headless::new(&args.pictures.adapter).map_err(Failure::from)?;
-    fs::create_dir_all(&args.out)
-        .with_context(|| format!("cannot create {:?}", args.out.display()))?;
-    PendingFile::create(&args.out.join("probe.png"))?;
+    let _folder = PendingFolder::create(&args.out)?;
     let interrupt = Interrupt::install().context("cannot listen for signals")?;
     let footage = Footage::open(&args.shot, args.every, &interrupt, log)?;
     let mut studio = Studio::new(&footage, gpu, &args.pictures, args.width)?;
@@ -79,8 +76,7 @@ pub fn run(args: &RenderArgs, log: LogArgs) -> Result<()> {
         progress.frame(&frame, footage.info().first_frame);
     }
     progress.finish();
-    println!("{}", args.out.display());
-    Ok(())
+    output::print(args.out.display())
 }
 
 fn save(image: &RgbaImage, path: &Path) -> Result<()> {

@@ -10,7 +10,7 @@ use super::failure::Failure;
 use super::footage::Footage;
 use super::interrupt::Interrupt;
 use super::log::LogArgs;
-use super::output::PendingFile;
+use super::output::{self, PendingFile};
 use super::pictures::{PictureArgs, Studio};
 use crate::render::Headless;
 use crate::run::RunInfo;
@@ -24,7 +24,7 @@ pub struct SheetArgs {
     #[command(flatten)]
     pictures: PictureArgs,
     /// The PNG file to write
-    #[arg(long, short, value_name = "FILE")]
+    #[arg(long, short, value_name = "FILE", value_parser = parse_png_path)]
     out: PathBuf,
     /// Show every N-th frame
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
@@ -45,7 +45,7 @@ const WIRE_STRENGTH: f32 = 0.4;
 pub fn run(args: &SheetArgs, log: LogArgs) -> Result<()> {
     super::shot::set_threads(args.shot.threads)?;
     let gpu = Headless::new(&args.pictures.adapter).map_err(Failure::from)?;
-    let output = PendingFile::create(&args.out)?;
+    let pending = PendingFile::create(&args.out)?;
     let interrupt = Interrupt::install().context("cannot listen for signals")?;
     let footage = Footage::open(&args.shot, args.every, &interrupt, log)?;
     let mut studio = Studio::new(&footage, gpu, &args.pictures, Some(args.thumbnail_width))?;
@@ -71,9 +71,16 @@ pub fn run(args: &SheetArgs, log: LogArgs) -> Result<()> {
         thumbnail_width: args.thumbnail_width,
         pairs_per_row: args.columns,
     };
-    output.write_png(&compose(&items, &options))?;
-    println!("{}", args.out.display());
-    Ok(())
+    pending.write_png(&compose(&items, &options))?;
+    output::print(args.out.display())
+}
+
+fn parse_png_path(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
+        true => Ok(path),
+        false => Err("a sheet is a PNG file: let its name end in .png".to_owned()),
+    }
 }
 
 fn caption(frame: &Frame, info: &RunInfo) -> Caption {

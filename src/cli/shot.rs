@@ -24,6 +24,10 @@ impl Shot {
     /// If the shot cannot be loaded, or does not say where it ends.
     pub fn open(args: &ShotArgs) -> Result<Self> {
         let path = args.shot.clone().ok_or_else(|| Failure::Usage("name a shot".into()))?;
+        if path.is_dir() {
+            let why = format!("{:?} is a folder, but a shot is a file", path.display());
+            return Err(Failure::Usage(why).into());
+        }
         let options = LoadOptions {
             shot: path.clone(),
             camera: args.camera.clone(),

@@ -9,6 +9,7 @@ use super::args::ShotArgs;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::log::LogArgs;
+use super::output;
 use super::progress::{Progress, ProgressMode};
 use super::shot::{Shot, set_threads};
 use crate::run::{RunWriter, WriteOptions};
@@ -56,6 +57,5 @@ pub fn run(args: &SimulateArgs, log: LogArgs) -> Result<()> {
     progress.finish();
     result.with_context(|| format!("cannot simulate the shot {:?}", shot.info.shot))?;
     writer.finish().map_err(Failure::from)?;
-    println!("{}", args.out.display());
-    Ok(())
+    output::print(args.out.display())
 }

@@ -68,6 +68,10 @@ impl<'a> Resolver<'a> {
             self.file.fps = fps;
         }
         self.check_setup()?;
+        if self.file.garments.is_empty() {
+            let (thing, needed) = ("the shot".into(), "at least one garment");
+            return Err(Problem::Missing { thing, needed }.at(self.document.place_of("garments")));
+        }
         let view = self.file.view.over(ViewSettings::default());
         self.check_view("view", &view)?;
         let (cameras, viewers) = self.viewers(request)?.into_iter().unzip();
