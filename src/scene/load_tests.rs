@@ -42,6 +42,8 @@ const SHOT: &str = r#"{
     "obstacles": [{"mesh": "meshes/ball.obj", "motion": "dance"}],
     "handles": [{"nodes": [2, 3], "motion": "lift", "end_time": 1.5}]
 }"#;
+const ONE_GARMENT: &str = r#""fabrics": {"cotton": {"file": "cotton.json"}},
+    "garments": [{"mesh": "meshes/sheet.obj", "fabric": "cotton"}]"#;
 const MOTION: &str = "NumFrames: 2\nbody[0] position\n0 0 0\n1 0 0\n\nbody[0] orientation\n\
     1 0 0 0\n1 0 0 0\n\n";
 const SCENE: &str = r#"{
@@ -169,6 +171,9 @@ fn unknown_overrides_are_answered_with_the_nearest_name() {
         ("fps.x=1", "there is no setting \"fps.x\""),
         ("garments.3.two_sided=true", "is 3, but must be less than 1"),
         ("fps", "is no override: write path.to.field=value"),
+        ("gravity=[0, 0", "--set gravity=[0, 0: Unterminated array"),
+        ("gravity=[0, 0, 1e999]", "--set gravity=[0, 0, 1e999]: "),
+        ("garments=[]", "--set garments=[]: the shot needs at least one garment"),
         ("fps=fast", "--set fps=fast: invalid type: string \"fast\", expected f64"),
         ("view.nu_out=2", "--set view.nu_out=2: view.nu_out is 2, but must be greater than 0"),
         ("takes=[]", "\"takes\" is not supported yet"),
@@ -277,7 +282,7 @@ fn the_frame_rate_of_the_command_line_ends_the_dispute() {
 fn baked_cameras_must_be_rigid_and_keep_their_cuts() {
     let baked = |second: &str| {
         format!(
-            r#"{{"shotsilk": 1, "viewers": [{{"resolution": [10, 10], "focal_mm": 35,
+            r#"{{"shotsilk": 1, {ONE_GARMENT}, "viewers": [{{"resolution": [10, 10], "focal_mm": 35,
             "aperture_mm": [36, 24], "matrices": [
             {{"world_from_camera": [1,0,0,5, 0,0,-1,6, 0,1,0,7, 0,0,0,1]}},
             {{"frame": 1, "matrix": {second}, "fov_y_deg": 30, "cut": true}}]}}]}}"#

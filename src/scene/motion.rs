@@ -42,6 +42,8 @@ pub enum MotionError {
     Empty,
     #[error("key {key} is not finite")]
     NonFinite { key: usize },
+    #[error("the motion through key {key} is not finite: its neighbours are too far apart")]
+    Slope { key: usize },
     #[error("key {key} has scale {scale}, but it must be greater than 0")]
     Scale { key: usize, scale: f64 },
     #[error("key {key} at {time} s does not come after the one before it, at {before} s")]
@@ -54,6 +56,7 @@ impl MotionError {
         match self {
             MotionError::Empty => None,
             MotionError::NonFinite { key }
+            | MotionError::Slope { key }
             | MotionError::Scale { key, .. }
             | MotionError::Order { key, .. } => Some(key),
         }
@@ -62,11 +65,16 @@ impl MotionError {
 
 impl Motion {
     /// # Errors
-    /// Without keys; unless the keys are finite, of positive scale and in strict order of time.
+    /// Without keys; unless the keys are finite, of positive scale and in strict order of time, and
+    /// the curve through them is finite.
     pub fn from_keys(keys: Vec<MotionKey>) -> Result<Self, MotionError> {
         check(&keys)?;
         let values = continuous(&keys);
-        let slopes = (0..keys.len()).map(|k| slope(&keys, &values, k)).collect();
+        let slopes: Vec<Components> = (0..keys.len()).map(|k| slope(&keys, &values, k)).collect();
+        // Finite keys may still be too far apart.
+        if let Some(key) = slopes.iter().position(|slope| !slope.is_finite()) {
+            return Err(MotionError::Slope { key });
+        }
         let spacing = uniform_spacing(&keys);
         Ok(Self { keys, values, slopes, spacing })
     }
@@ -198,6 +206,10 @@ impl Components {
         rotation: DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0),
         translation: DVec3::ZERO,
     };
+
+    fn is_finite(self) -> bool {
+        self.scale.is_finite() && self.rotation.is_finite() && self.translation.is_finite()
+    }
 
     fn pose(self) -> Pose {
         let Self { scale, rotation, translation } = self;
@@ -332,6 +344,10 @@ mod tests {
         assert_eq!(error, MotionError::Order { key: 2, time: 2.0, before: 2.0 });
         let error = Motion::from_keys(vec![at(f64::NAN)]).unwrap_err();
         assert_eq!(error, MotionError::NonFinite { key: 0 });
+        let far = |time, x| key(time, DVec3::new(x, 0.0, 0.0), 0.0);
+        let error =
+            Motion::from_keys(vec![far(0.0, -1e308), at(1.0), far(2.0, 1e308)]).unwrap_err();
+        assert_eq!(error, MotionError::Slope { key: 1 });
         let mut flat = at(1.0);
         flat.pose.scale = 0.0;
         let error = Motion::from_keys(vec![at(0.0), flat]).unwrap_err();

@@ -64,7 +64,7 @@ pub(super) fn list(node: &Node) -> &[Node] {
 /// Plain data as if it had been written at a place.
 pub(super) fn json(place: &Place, value: impl Serialize) -> Node {
     let text = serde_json::to_string(&value).expect("plain data");
-    Node::from_argument(&text, place)
+    Node::from_argument(&text, place).expect("what serde writes is JSON")
 }
 
 pub(super) fn object<'n>(

@@ -39,13 +39,17 @@ impl Node {
     }
 
     /// A value from the command line: JSON if it is that, else a string.
-    pub fn from_argument(text: &str, place: &Place) -> Node {
+    ///
+    /// # Errors
+    /// A list, an object or a quoted string that is begun but is no JSON.
+    pub fn from_argument(text: &str, place: &Place) -> Result<Node, Problem> {
         let mut node = match Node::parse("", text) {
             Ok(node) => node,
+            Err(error) if text.starts_with(['[', '{', '"']) => return Err(error.problem),
             Err(_) => Node { place: place.clone(), value: Value::String(text.to_owned()) },
         };
         node.move_to(place);
-        node
+        Ok(node)
     }
 
     fn move_to(&mut self, place: &Place) {

@@ -57,7 +57,7 @@ fn set(root: &mut Node, path: &str, value: &str, place: &Place) -> Result<(), Pr
         }
         node = node.child_mut(segment).expect("the child was found or made above");
     }
-    *node = Node::from_argument(value, place);
+    *node = Node::from_argument(value, place)?;
     Ok(())
 }
 

@@ -1,0 +1,52 @@
+//! `sheet`: one page for a run or a shot, drawn by the software adapter.
+
+use super::small_shot::SmallShot;
+
+/// Pictures on the sheets drawn here (px).
+const WIDTH: u32 = 96;
+
+#[test]
+fn a_sheet_has_room_for_a_pair_of_pictures_for_every_nth_frame() {
+    let shot = SmallShot::new();
+    shot.run("simulate shot.json --out run").succeeds();
+    let sheet = |line: &str| {
+        let line = format!("sheet {line} --thumbnail-width {WIDTH} --columns 1");
+        assert_eq!(shot.run(&line).succeeds().stdout, "sheet.png\n");
+        image::image_dimensions(shot.path("sheet.png")).unwrap()
+    };
+    let (width, height) = sheet("run --out sheet.png --every 1");
+    assert!((2 * WIDTH..4 * WIDTH).contains(&width), "{width}");
+    assert!(height > 5 * WIDTH * 180 / 320, "{height}");
+    let (_, lower) = sheet("run --out sheet.png --every 4");
+    assert!(lower < height, "{lower} and {height}");
+    assert_eq!(sheet("shot.json --out sheet.png --every 4"), (width, lower));
+}
+
+#[test]
+fn an_earlier_sheet_stays_until_the_new_one_is_whole() {
+    let shot = SmallShot::new();
+    shot.write("sheet.png", "an earlier one");
+    shot.run("sheet shot.json --out sheet.png --sizing uniform --set gravity=[0,0,-1e300]")
+        .fails(5, &["frame 1"]);
+    assert_eq!(shot.text("sheet.png"), "an earlier one");
+    shot.run(&format!("sheet shot.json --out sheet.png --thumbnail-width {WIDTH}")).succeeds();
+    assert!(image::open(shot.path("sheet.png")).is_ok());
+}
+
+#[test]
+fn a_sheet_is_a_png_file() {
+    let shot = SmallShot::new();
+    shot.run("sheet shot.json --out sheet.jpg").fails(2, &["'sheet.jpg'", ".png"]);
+    shot.run("sheet shot.json --out sheet.PNG --frames 1").succeeds();
+    assert!(shot.path("sheet.PNG").is_file());
+}
+
+#[test]
+fn a_run_takes_no_settings_and_has_the_frames_it_has() {
+    let shot = SmallShot::new();
+    shot.run("simulate shot.json --out run --frames 2").succeeds();
+    shot.run("sheet run --out a.png --set fps=3").fails(2, &["--set", "simulated already"]);
+    shot.run("sheet run --out a.png --frames 7..9")
+        .fails(2, &["\"run\"", "none of the frames 7..9"]);
+    assert!(!shot.path("a.png").exists());
+}

@@ -1,0 +1,20 @@
+//! The program as its users meet it: the built binary, its exit codes, messages and files.
+//!
+//! Tests write small shots into temporary folders; those of the reference scenes are skipped where
+//! the scenes are not there.
+
+mod bad_camera;
+mod bad_mesh;
+mod bad_motion;
+mod bad_output;
+mod bad_shot;
+mod contact_sheet;
+mod program;
+mod reference;
+mod render;
+mod same_bits;
+#[cfg(unix)]
+mod signals;
+mod simulate;
+mod small_shot;
+mod usage;

@@ -1,0 +1,65 @@
+//! Interrupted from the keyboard or by the system.
+
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Command, Stdio};
+
+use super::program;
+use super::small_shot::SmallShot;
+
+/// Starts a command, sends a signal once a frame is done, and returns its exit code and stderr.
+fn interrupted(shot: &SmallShot, line: &str, signal: &str) -> (Option<i32>, String) {
+    let mut child = program::command(shot.folder(), line)
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let mut stderr = BufReader::new(child.stderr.take().expect("stderr is piped"));
+    let mut text = String::new();
+    while !text.contains("frame 3 ") {
+        assert!(stderr.read_line(&mut text).unwrap() > 0, "ended before frame 3: {text}");
+    }
+    let kill = Command::new("kill").args([signal, &child.id().to_string()]).status();
+    assert!(kill.expect("kill is installed").success());
+    stderr.read_to_string(&mut text).unwrap();
+    (child.wait().unwrap().code(), text)
+}
+
+#[test]
+fn a_simulation_that_is_told_to_stop_leaves_a_whole_run() {
+    for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
+        let shot = SmallShot::new();
+        let line = "simulate shot.json --out run --frames 1000000";
+        let (found, text) = interrupted(&shot, line, signal);
+        assert_eq!(found, Some(code), "{text}");
+        assert!(text.contains("interrupted; what is written so far is whole"), "{text}");
+        let reader = shot.reader("run");
+        let stats = shot.text("run/stats.csv");
+        assert!(stats.ends_with('\n'));
+        let rows: Vec<u32> = stats
+            .lines()
+            .skip(1)
+            .map(|row| row.split(',').next().unwrap().parse().unwrap())
+            .collect();
+        assert!(rows.len() > 3);
+        assert_eq!(rows, reader.frames());
+        for number in rows {
+            assert_eq!(reader.frame(number).unwrap().garments[0].check(), Ok(()));
+        }
+        let names = shot.names("run/frames");
+        assert!(names.iter().all(|name| name.ends_with(".sfr")), "{names:?}");
+    }
+}
+
+#[test]
+fn pictures_that_are_told_to_stop_leave_nothing() {
+    for line in [
+        "sheet shot.json --out sheet.png --frames 1000000",
+        "render shot.json --out pictures/deep --frames 1000000",
+    ] {
+        let shot = SmallShot::new();
+        let before = shot.names("");
+        let (code, text) = interrupted(&shot, line, "-INT");
+        assert_eq!(code, Some(130), "{text}");
+        assert_eq!(shot.names(""), before);
+    }
+}
