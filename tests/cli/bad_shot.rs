@@ -25,7 +25,7 @@ fn missing_files_are_named_with_the_line_that_asks_for_them() {
 #[test]
 fn malformed_json_is_answered_with_line_and_column() {
     refused_after("shot.json", "\"fps\": 24,", "\"fps\": ,", &["shot.json:3:12: "]);
-    refused_after("cotton.json", "0.15,", "0.15", &["cotton.json:3:5: "]);
+    refused_after("cotton.json", "0.15,", "0.15", &["cotton.json:2:20: "]);
     refused_after("main.camera.json", "\"far\": 50", "\"far\": 5O", &["main.camera.json:2:"]);
     let shot = SmallShot::new();
     shot.write("shot.json", "");
