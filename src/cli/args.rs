@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::failure::Failure;
 use crate::sim::SizingMode;
 
 /// Which shot, and what to change about it.
@@ -24,9 +25,9 @@ pub struct ShotArgs {
     /// Frames, both ends included, counted from 0 whatever the shot calls them: N means 0..N
     #[arg(long, value_name = "A..B", value_parser = parse_frames)]
     pub frames: Option<FrameRange>,
-    /// How the resolution of the cloth is chosen
-    #[arg(long, value_enum, default_value_t = Sizing::View)]
-    pub sizing: Sizing,
+    /// How the resolution of the cloth is chosen; without it view
+    #[arg(long, value_enum)]
+    pub sizing: Option<Sizing>,
     /// Edge length of uniform sizing (m); without it the finest of the garment's sizing
     #[arg(long, value_name = "METRES", value_parser = parse_length, allow_negative_numbers = true)]
     pub edge_length: Option<f64>,
@@ -57,13 +58,27 @@ impl Sizing {
 }
 
 impl ShotArgs {
+    /// What `--sizing` says.
+    pub fn sizing(&self) -> Sizing {
+        self.sizing.unwrap_or(Sizing::View)
+    }
+
     /// What `--sizing` and `--edge-length` say together.
-    pub fn sizing_mode(&self) -> SizingMode {
-        match self.sizing {
-            Sizing::Uniform => SizingMode::Uniform { edge_length: self.edge_length },
-            Sizing::Adaptive => SizingMode::Adaptive,
-            Sizing::View => SizingMode::View,
+    ///
+    /// # Errors
+    /// An edge length for a sizing that finds its own.
+    pub fn sizing_mode(&self) -> Result<SizingMode, Failure> {
+        match (self.sizing(), self.edge_length) {
+            (Sizing::Uniform, edge_length) => Ok(SizingMode::Uniform { edge_length }),
+            (_, Some(_)) => Err(Failure::Usage("--edge-length needs --sizing uniform".into())),
+            (Sizing::Adaptive, None) => Ok(SizingMode::Adaptive),
+            (Sizing::View, None) => Ok(SizingMode::View),
         }
+    }
+
+    /// Whether something is asked for that only a simulation can give.
+    pub fn changes_the_simulation(&self) -> bool {
+        !self.sets.is_empty() || self.sizing.is_some() || self.edge_length.is_some()
     }
 }
 

@@ -42,8 +42,9 @@ impl Footage {
     }
 
     fn of_run(reader: RunReader, args: &ShotArgs, every: u32) -> Result<Self> {
-        if !args.sets.is_empty() || args.edge_length.is_some() {
-            let why = "a run is simulated already: --set and --edge-length have no effect on it";
+        if args.changes_the_simulation() {
+            let why = "a run is simulated already: \
+                --set, --sizing and --edge-length have no effect on it";
             return Err(Failure::Usage(why.into()).into());
         }
         let held = reader.frames();

@@ -40,7 +40,7 @@ impl Shot {
         }
         let frames = frames(args, &loaded.scene)
             .with_context(|| format!("cannot simulate {:?}", path.display()))?;
-        let settings = SimSettings { sizing: args.sizing_mode() };
+        let settings = SimSettings { sizing: args.sizing_mode()? };
         let info = run_info(&loaded, args, settings);
         Ok(Self { scene: Arc::new(loaded.scene), settings, frames, info })
     }
@@ -105,7 +105,7 @@ fn run_info(loaded: &LoadedShot, args: &ShotArgs, settings: SimSettings) -> RunI
         shotsilk_run: RUN_FORMAT,
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         shot: loaded.scene.name.clone(),
-        sizing_mode: args.sizing.name().to_owned(),
+        sizing_mode: args.sizing().name().to_owned(),
         fps: loaded.scene.fps,
         first_frame: loaded.scene.first_frame,
         garments: loaded.scene.garments.iter().map(|g| g.name.clone()).collect(),

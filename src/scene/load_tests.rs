@@ -174,7 +174,7 @@ fn unknown_overrides_are_answered_with_the_nearest_name() {
         ("gravity=[0, 0", "--set gravity=[0, 0: Unterminated array"),
         ("gravity=[0, 0, 1e999]", "--set gravity=[0, 0, 1e999]: "),
         ("garments=[]", "--set garments=[]: the shot needs at least one garment"),
-        ("fps=fast", "--set fps=fast: invalid type: string \"fast\", expected f64"),
+        ("fps=fast", "--set fps=fast: invalid type: string \"fast\", expected a number"),
         ("view.nu_out=2", "--set view.nu_out=2: view.nu_out is 2, but must be greater than 0"),
         ("takes=[]", "\"takes\" is not supported yet"),
     ] {

@@ -45,7 +45,10 @@ fn a_sheet_is_a_png_file() {
 fn a_run_takes_no_settings_and_has_the_frames_it_has() {
     let shot = SmallShot::new();
     shot.run("simulate shot.json --out run --frames 2").succeeds();
-    shot.run("sheet run --out a.png --set fps=3").fails(2, &["--set", "simulated already"]);
+    for change in ["--set fps=3", "--sizing uniform", "--edge-length 0.1"] {
+        let line = format!("sheet run --out a.png {change}");
+        shot.run(&line).fails(2, &["simulated already", change.split(' ').next().unwrap()]);
+    }
     shot.run("sheet run --out a.png --frames 7..9")
         .fails(2, &["\"run\"", "none of the frames 7..9"]);
     assert!(!shot.path("a.png").exists());

@@ -19,6 +19,7 @@ fn wrong_command_lines_are_refused_with_what_would_have_been_right() {
         ("simulate shot.json --out run --sizing fine", &["'fine'", "uniform, adaptive, view"]),
         ("simulate shot.json --out run --threads 0", &["0 is not in 1.."]),
         ("simulate shot.json --out run --edge-length -0.1", &["-0.1 m is not a length above 0"]),
+        ("simulate shot.json --out run --edge-length 0.1", &["needs --sizing uniform"]),
         ("simulate shot.json --out run --fps -24", &["-24 frames a second are not a rate above"]),
         ("simulate shot.json --out run --fps NaN", &["NaN frames a second"]),
         ("simulate shot.json --out run --set view.nu_out", &["path.to.field=value"]),

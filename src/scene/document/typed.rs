@@ -36,10 +36,34 @@ impl Node {
         };
         let message = error.to_string();
         // The text is one line; the position is of no meaning to the reader.
-        let what = message.split(" at line 1 column").next().unwrap_or(&message).to_owned();
+        let what = in_words(message.split(" at line 1 column").next().unwrap_or(&message));
         let place = written.place(error.column().saturating_sub(1)).unwrap_or(&self.place);
         Problem::Shape(what).at(place.clone())
     }
+}
+
+/// What the type names of this program are to whoever writes a shot.
+const KINDS: [(&str, &str); 7] = [
+    ("f64", "a number"),
+    ("u32", "a whole number, 0 or more"),
+    ("usize", "a whole number, 0 or more"),
+    ("i64", "a whole number"),
+    ("a sequence", "a list"),
+    ("a map", "an object"),
+    ("a boolean", "true or false"),
+];
+
+/// A message that ends with what was expected, in words of the format.
+fn in_words(message: &str) -> String {
+    let Some((found, expected)) = message.rsplit_once(", expected ") else {
+        return message.to_owned();
+    };
+    let kind = match KINDS.iter().find(|(theirs, _)| *theirs == expected) {
+        Some((_, ours)) => ours,
+        None if expected.starts_with("struct ") => "an object",
+        None => expected,
+    };
+    format!("{found}, expected {kind}")
 }
 
 /// The tree as one line of JSON, with the stretch of it that each key and value takes. Reading it
