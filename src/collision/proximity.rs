@@ -37,13 +37,15 @@ pub fn contacts(
         |node: usize| obstacles.iter().filter_map(move |o| node_contact(cloth, node, o, settings));
     let mut found: Vec<ContactPoint> =
         (0..cloth.position.len()).into_par_iter().flat_map_iter(of_node).collect();
-    for obstacle in obstacles {
-        let of_corner = |corner| corner_contact(cloth, tree, obstacle, corner, settings);
-        found.par_extend(
-            (0..obstacle.shape.positions().len())
-                .into_par_iter()
-                .filter_map(|index| of_corner(obstacle_corner(obstacle, At::Start, index))),
-        );
+    let speed_max = cloth.velocity.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt();
+    for (index, obstacle) in obstacles.iter().enumerate() {
+        let of_corner = |corner: usize| {
+            let corner = obstacle_corner(obstacle, At::Start, corner);
+            let contact = corner_contact(cloth, speed_max, tree, obstacle, corner, settings)?;
+            (!is_inside_another(obstacles, index, corner.position, At::Start)).then_some(contact)
+        };
+        let corners = 0..obstacle.shape.positions().len();
+        found.par_extend(corners.into_par_iter().filter_map(of_corner));
     }
     found
 }
@@ -80,24 +82,32 @@ fn node_contact(
 
 fn corner_contact(
     cloth: Cloth<'_>,
+    cloth_speed_max: f64,
     tree: &FaceTree,
     obstacle: &ObstacleMotion,
     corner: ObstacleCorner,
     settings: &Contact,
 ) -> Option<ContactPoint> {
+    let surface_velocity = obstacle.velocity_at(corner.position);
+    let approach = (surface_velocity.length() + cloth_speed_max) * obstacle.duration;
+    let reach = settings.thickness + approach;
     let around = tree.bounds();
     let aside = corner.position.clamp(around.mins, around.maxs);
-    if corner.position.distance_squared(aside) > settings.thickness * settings.thickness {
+    if corner.position.distance_squared(aside) > reach * reach {
         return None;
     }
-    let touch = tree.touch(cloth, corner.position, corner.normal, settings.thickness)?;
-    let velocity = (0..3).map(|k| cloth.velocity[touch.nodes[k]] * touch.weights[k]).sum();
+    let touch = tree.touch(cloth, corner.position, corner.normal, reach)?;
+    // Further below, the cloth is on the other side of a thin part.
+    if touch.signed_distance < -settings.thickness {
+        return None;
+    }
+    let velocity = touch.weighted_sum(cloth.velocity);
     let scale = obstacle.start.scale;
     let contact = ContactPoint {
         nodes: ContactPoint::weighted(&[0, 1, 2].map(|k| (touch.nodes[k], touch.weights[k]))),
         normal: touch.normal,
         gap: touch.signed_distance - settings.thickness,
-        surface_velocity: obstacle.velocity_at(corner.position),
+        surface_velocity,
         stiffness: settings.stiffness * obstacle.shape.vertex_areas()[corner.index] * scale * scale,
         friction: settings.friction_obstacle,
     };
@@ -136,6 +146,22 @@ pub(super) fn obstacle_corner(obstacle: &ObstacleMotion, at: At, index: usize) -
         position: pose.transform_point(obstacle.shape.positions()[index]),
         normal: pose.rotation * obstacle.shape.vertex_normals()[index],
     }
+}
+
+/// Whether a corner of one obstacle lies inside another: there cloth cannot touch it.
+pub(super) fn is_inside_another(
+    obstacles: &[ObstacleMotion],
+    own: usize,
+    corner: DVec3,
+    at: At,
+) -> bool {
+    obstacles.iter().enumerate().any(|(index, other)| {
+        index != own
+            && match at {
+                At::Start => other.contains_at_start(corner),
+                At::End => other.contains_at_end(corner),
+            }
+    })
 }
 
 /// Per node the nearest obstacle plane within a range (m), where the obstacles are at the end of
