@@ -60,18 +60,23 @@ impl Shot {
     ) -> Result<()> {
         let (mut simulation, frame) =
             Simulation::start(self.scene.clone(), self.settings).map_err(Failure::from)?;
+        log_warnings(&frame);
         visit(frame)?;
         for _ in 0..self.frames.last {
             if let Some(signal) = interrupt.requested() {
                 return Err(Failure::Interrupted(signal).into());
             }
             let frame = simulation.advance().map_err(Failure::from)?;
-            for warning in &frame.report.warnings {
-                tracing::warn!("frame {}: {warning}", frame.number);
-            }
+            log_warnings(&frame);
             visit(frame)?;
         }
         Ok(())
+    }
+}
+
+fn log_warnings(frame: &Frame) {
+    for warning in &frame.report.warnings {
+        tracing::warn!("frame {}: {warning}", frame.number);
     }
 }
 

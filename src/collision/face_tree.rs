@@ -68,18 +68,16 @@ impl FaceTree {
         let (face, best) = self.tree.find_best(reach, box_distance, leaf)?;
         let away = best.closest.point - point;
         let height = away.dot(outward);
-        let (normal, signed_distance) = if height > 0.0 {
-            (away / best.distance, best.distance)
-        } else if -height >= SUNK_COSINE_MIN * best.distance {
-            ((-away).try_normalize().unwrap_or(outward), -best.distance)
-        } else {
+        let is_outside = height > 0.0;
+        if !is_outside && -height < SUNK_COSINE_MIN * best.distance {
             return None;
-        };
+        }
+        let side = if is_outside { 1.0 } else { -1.0 };
         Some(Touch {
             nodes: cloth.faces[face as usize].map(|n| n as usize),
             weights: best.closest.barycentric,
-            normal,
-            signed_distance,
+            normal: (away * side).try_normalize().unwrap_or(outward),
+            signed_distance: side * best.distance,
         })
     }
 }
@@ -87,6 +85,13 @@ impl FaceTree {
 /// Cosine of the widest angle from straight below at which cloth counts as sunk in: cloth pressed on
 /// the corner of a cube is 55 degrees from the corner's normal.
 const SUNK_COSINE_MIN: f64 = 0.5;
+
+impl Touch {
+    /// The cloth's point, or whatever the values belong to, at the touch.
+    pub fn weighted_sum(&self, values: &[DVec3]) -> DVec3 {
+        (0..3).map(|k| values[self.nodes[k]] * self.weights[k]).sum()
+    }
+}
 
 struct Candidate {
     distance: f64,

@@ -5,13 +5,24 @@ use glam::DVec3;
 use super::obstacles::ObstacleMotion;
 use crate::remesh::EditGuard;
 
-/// Refuses faces that cross an obstacle where it is at the end of its step.
+/// Refuses edits after which more faces cross an obstacle, where it is at the end of its step, than
+/// before.
 pub struct ObstacleGuard<'a> {
     pub obstacles: &'a [ObstacleMotion],
 }
 
+impl ObstacleGuard<'_> {
+    fn crossings(&self, faces: &[[DVec3; 3]]) -> usize {
+        let crossed = |face: &[DVec3; 3]| {
+            self.obstacles.iter().filter(|o| o.is_crossed_at_end(*face)).count()
+        };
+        faces.iter().map(crossed).sum()
+    }
+}
+
 impl EditGuard for ObstacleGuard<'_> {
-    fn allows(&self, new_faces: &[[DVec3; 3]]) -> bool {
-        !new_faces.iter().any(|&face| self.obstacles.iter().any(|o| o.is_crossed_at_end(face)))
+    fn allows(&self, new_faces: &[[DVec3; 3]], old_faces: &[[DVec3; 3]]) -> bool {
+        let new = self.crossings(new_faces);
+        new == 0 || new <= self.crossings(old_faces)
     }
 }

@@ -12,7 +12,7 @@ pub use face_tree::{FaceTree, Touch};
 pub use guard::ObstacleGuard;
 pub use obstacles::{ObstacleMotion, Obstacles};
 pub use proximity::{Cloth, contacts, nearest_planes};
-pub use resolve::{MovedCloth, ResolveReport, resolve};
+pub use resolve::{Depth, MovedCloth, resolve, trapped_nodes};
 pub use shape::{Nearest, Shape};
 
 #[cfg(test)]

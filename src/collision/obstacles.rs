@@ -70,8 +70,32 @@ impl ObstacleMotion {
 
     /// The velocity of the obstacle's material at a point it has at the start of the step (m/s).
     pub fn velocity_at(&self, point_at_start: DVec3) -> DVec3 {
-        let own = self.own_from_start.transform_point(point_at_start);
-        (self.end.transform_point(own) - point_at_start) / self.duration
+        (self.carried(point_at_start) - point_at_start) / self.duration
+    }
+
+    /// The velocity of the obstacle's material at a point it has at the end of the step (m/s).
+    pub fn velocity_at_end(&self, point_at_end: DVec3) -> DVec3 {
+        let own = self.own_from_end.transform_point(point_at_end);
+        (point_at_end - self.start.transform_point(own)) / self.duration
+    }
+
+    /// Where a point goes that is carried by the obstacle from the start to the end of the step.
+    pub fn carried(&self, point_at_start: DVec3) -> DVec3 {
+        self.end.transform_point(self.own_from_start.transform_point(point_at_start))
+    }
+
+    /// Whether a point is inside at the end of the step.
+    pub fn contains_at_end(&self, point: DVec3) -> bool {
+        let bounds = &self.bounds_at_end;
+        point == point.clamp(bounds.mins, bounds.maxs)
+            && self.nearest_at_end(point, f64::INFINITY).is_some_and(|n| n.signed_distance < 0.0)
+    }
+
+    /// Whether a point is inside at the start of the step.
+    pub fn contains_at_start(&self, point: DVec3) -> bool {
+        let bounds = &self.bounds_at_start;
+        point == point.clamp(bounds.mins, bounds.maxs)
+            && self.nearest_at_start(point, f64::INFINITY).is_some_and(|n| n.signed_distance < 0.0)
     }
 
     /// The nearest point of the surface at the start of the step, within a radius (m).

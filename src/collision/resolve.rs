@@ -5,26 +5,26 @@
 //! friction would.
 
 use glam::DVec3;
+use parry3d_f64::bounding_volume::BoundingVolume;
+use rayon::prelude::*;
 
-use super::face_tree::FaceTree;
+use super::face_tree::{FaceTree, Touch};
 use super::obstacles::ObstacleMotion;
-use super::proximity::{At, Cloth, obstacle_corners};
+use super::proximity::{At, Cloth, is_inside_another, obstacle_corner};
+use super::shape::Nearest;
 use crate::scene::Contact;
-
-/// What resolution did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ResolveReport {
-    /// Nodes and faces that had to be led out.
-    pub impacts: usize,
-    /// Nodes that are still inside an obstacle, as between two that overlap.
-    pub trapped: usize,
-}
 
 /// Cloth is led out to this share of the contact thickness; the penalty layer does the rest.
 const FLOOR_IN_THICKNESSES: f64 = 0.1;
 
 /// Parts that overlap hand a node to and fro; after so many rounds it is trapped.
 const ROUNDS_MAX: usize = 4;
+
+/// A hair of slack, in contact thicknesses, or rounding would count cloth that was just led out.
+const SLACK_IN_THICKNESSES: f64 = 1e-9;
+
+/// Halvings of the way of a node when looking for where it went in.
+const ENTRY_HALVINGS: usize = 12;
 
 /// Where the cloth is at the end of the step, to be corrected in place.
 pub struct MovedCloth<'a> {
@@ -36,110 +36,186 @@ pub struct MovedCloth<'a> {
     pub faces: &'a [[u32; 3]],
 }
 
-/// Leads cloth out of the obstacles at the end of their step; the tree is left fitted to the
-/// result.
+/// How deep cloth is looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// As deep as a node can have come within the step.
+    OfTheStep,
+    /// Anywhere inside: after an edit, or to be sure.
+    Any,
+}
+
+/// Leads cloth out of the obstacles at the end of their step; returns how many nodes and faces had
+/// to be. The tree is left fitted to the result.
 pub fn resolve(
     cloth: &mut MovedCloth<'_>,
     tree: &mut FaceTree,
     obstacles: &[ObstacleMotion],
     settings: &Contact,
-) -> ResolveReport {
-    let mut report = ResolveReport::default();
-    for round in 0..ROUNDS_MAX {
-        let led_out: usize = obstacles.iter().map(|o| lead_nodes_out(cloth, o, settings)).sum();
-        if round == 0 {
-            report.impacts += led_out;
-        }
-        report.trapped = led_out;
-        if led_out == 0 {
+    depth: Depth,
+) -> usize {
+    let mut impacts = 0;
+    let mut suspects: Vec<usize> = (0..cloth.position.len()).collect();
+    for _ in 0..ROUNDS_MAX {
+        let led = lead_nodes_out(cloth, &suspects, obstacles, settings, depth);
+        tree.refit(cloth.position, cloth.faces);
+        let lifted = lift_faces(cloth, tree, obstacles, settings);
+        impacts += led.len() + lifted.len() / 3;
+        suspects = led;
+        suspects.extend(&lifted);
+        if suspects.is_empty() {
             break;
         }
     }
-    tree.refit(cloth.position, cloth.faces);
-    let lifted: usize = obstacles.iter().map(|o| lift_faces(cloth, tree, o, settings)).sum();
-    if lifted > 0 {
-        report.impacts += lifted;
+    if !suspects.is_empty() {
         tree.refit(cloth.position, cloth.faces);
     }
-    report
+    impacts
 }
 
+/// Nodes inside an obstacle at the end of its step, as between two that overlap.
+pub fn trapped_nodes(positions: &[DVec3], obstacles: &[ObstacleMotion]) -> usize {
+    positions.par_iter().filter(|x| obstacles.iter().any(|o| o.contains_at_end(**x))).count()
+}
+
+/// Leads those of the suspects out that are inside; returns them.
 fn lead_nodes_out(
     cloth: &mut MovedCloth<'_>,
-    obstacle: &ObstacleMotion,
+    suspects: &[usize],
+    obstacles: &[ObstacleMotion],
     settings: &Contact,
-) -> usize {
+    depth: Depth,
+) -> Vec<usize> {
     let floor = FLOOR_IN_THICKNESSES * settings.thickness;
-    let swept = obstacle.swept_bounds();
-    let mut count = 0;
-    for node in 0..cloth.position.len() {
-        let x = cloth.position[node];
-        let start = cloth.position_at_start[node];
-        if x.distance(x.clamp(swept.mins, swept.maxs)) > floor {
-            continue;
+    let mut led = Vec::new();
+    for obstacle in obstacles {
+        let swept = obstacle.swept_bounds();
+        for &node in suspects {
+            let x = cloth.position[node];
+            if x.distance_squared(x.clamp(swept.mins, swept.maxs)) > floor * floor {
+                continue;
+            }
+            let Some(exit) = exit(cloth, node, obstacle, settings, depth) else { continue };
+            let lift = floor - exit.signed_distance;
+            if lift <= SLACK_IN_THICKNESSES * settings.thickness {
+                continue;
+            }
+            cloth.position[node] += exit.normal * lift;
+            let surface_velocity = obstacle.velocity_at_end(exit.point);
+            let relative = cloth.velocity[node] - surface_velocity;
+            cloth.velocity[node] =
+                surface_velocity + after_impact(relative, exit.normal, settings.friction_obstacle);
+            led.push(node);
         }
-        let carried = obstacle.velocity_at(start) * obstacle.duration;
-        let reach = settings.thickness + (x - start - carried).length();
-        let Some(nearest) = obstacle.nearest_at_end(x, reach) else { continue };
-        let lift = floor - nearest.signed_distance;
-        // A hair of slack, or rounding would count a node that was just led out.
-        if lift <= 1e-9 * settings.thickness {
-            continue;
-        }
-        cloth.position[node] += nearest.normal * lift;
-        let surface_velocity = obstacle.velocity_at(nearest.point);
-        cloth.velocity[node] = surface_velocity
-            + after_impact(
-                cloth.velocity[node] - surface_velocity,
-                nearest.normal,
-                settings.friction_obstacle,
-            );
-        count += 1;
     }
-    count
+    led
 }
 
+/// Where a node should leave an obstacle, or how far it is off: the nearest point of the surface,
+/// but for a node that went in deeper than the contact thickness the point where it went in, for in
+/// a thin part the nearest point may be on the far side.
+fn exit(
+    cloth: &MovedCloth<'_>,
+    node: usize,
+    obstacle: &ObstacleMotion,
+    settings: &Contact,
+    depth: Depth,
+) -> Option<Nearest> {
+    let x = cloth.position[node];
+    let carried = obstacle.carried(cloth.position_at_start[node]);
+    let reach = match depth {
+        Depth::OfTheStep => settings.thickness + x.distance(carried),
+        Depth::Any => f64::INFINITY,
+    };
+    let nearest = obstacle.nearest_at_end(x, reach)?;
+    if nearest.signed_distance >= -settings.thickness || obstacle.contains_at_end(carried) {
+        return Some(nearest);
+    }
+    let (mut outside, mut inside) = (carried, x);
+    for _ in 0..ENTRY_HALVINGS {
+        let middle = outside.midpoint(inside);
+        *if obstacle.contains_at_end(middle) { &mut inside } else { &mut outside } = middle;
+    }
+    let entry = obstacle.nearest_at_end(outside, f64::INFINITY)?;
+    let signed_distance = entry.normal.dot(x - entry.point);
+    // Beside the entry the surface may curve away under the node.
+    Some(if signed_distance < 0.0 { Nearest { signed_distance, ..entry } } else { nearest })
+}
+
+/// Lifts faces off obstacle corners that came through them; returns the nodes moved, three a face.
 fn lift_faces(
     cloth: &mut MovedCloth<'_>,
     tree: &FaceTree,
-    obstacle: &ObstacleMotion,
+    obstacles: &[ObstacleMotion],
     settings: &Contact,
-) -> usize {
-    let floor = FLOOR_IN_THICKNESSES * settings.thickness;
-    let around = tree.bounds();
-    let mut count = 0;
-    for corner in obstacle_corners(obstacle, At::End) {
-        let p = corner.position;
-        if p.distance(p.clamp(around.mins, around.maxs)) > settings.thickness {
+) -> Vec<usize> {
+    let mut moved = Vec::new();
+    let around = tree.bounds().loosened(settings.thickness);
+    for (own, obstacle) in obstacles.iter().enumerate() {
+        if !obstacle.swept_bounds().intersects(&around) {
             continue;
         }
-        let seen = Cloth {
-            position: cloth.position,
-            velocity: cloth.velocity,
-            area: cloth.area,
-            faces: cloth.faces,
-        };
-        let Some(touch) = tree.touch(seen, p, corner.normal, settings.thickness) else { continue };
-        let lift = floor - touch.signed_distance;
-        if touch.signed_distance >= 0.0 || lift <= 0.0 {
-            continue;
+        for index in 0..obstacle.shape.positions().len() {
+            let corner = obstacle_corner(obstacle, At::End, index);
+            let p = corner.position;
+            if p != p.clamp(around.mins, around.maxs) {
+                continue;
+            }
+            let Some(touch) = sunk_face(cloth, tree, obstacle, index, settings) else { continue };
+            if is_inside_another(obstacles, own, p, At::End) {
+                continue;
+            }
+            let floor = FLOOR_IN_THICKNESSES * settings.thickness;
+            let surface_velocity = obstacle.velocity_at_end(p);
+            lift_face(cloth, &touch, floor - touch.signed_distance, surface_velocity);
+            moved.extend(touch.nodes);
         }
-        let surface_velocity = obstacle.velocity_at(p);
-        let spread: f64 = touch.weights.iter().map(|w| w * w).sum();
-        let closing: f64 = (0..3)
-            .map(|k| {
-                touch.weights[k]
-                    * touch.normal.dot(cloth.velocity[touch.nodes[k]] - surface_velocity)
-            })
-            .sum();
-        for k in 0..3 {
-            let share = touch.weights[k] / spread;
-            cloth.position[touch.nodes[k]] += touch.normal * (lift * share);
-            cloth.velocity[touch.nodes[k]] -= touch.normal * (closing.min(0.0) * share);
-        }
-        count += 1;
     }
-    count
+    moved
+}
+
+/// The face that has sunk below a corner of an obstacle: within the contact thickness, or deeper if
+/// it went in during this step.
+fn sunk_face(
+    cloth: &MovedCloth<'_>,
+    tree: &FaceTree,
+    obstacle: &ObstacleMotion,
+    index: usize,
+    settings: &Contact,
+) -> Option<Touch> {
+    let end = obstacle_corner(obstacle, At::End, index);
+    let start = obstacle_corner(obstacle, At::Start, index);
+    let way = end.position.distance(start.position);
+    let touch = tree.touch(cloth.seen(), end.position, end.normal, settings.thickness + way)?;
+    if touch.signed_distance >= 0.0 {
+        return None;
+    }
+    let above_at_start =
+        (touch.weighted_sum(cloth.position_at_start) - start.position).dot(start.normal) > 0.0;
+    (touch.signed_distance >= -settings.thickness || above_at_start).then_some(touch)
+}
+
+/// Moves a point of a face along the normal by `lift` (m) and ends its approach, by the least
+/// change of its nodes. Barycentric weights add up to 1, so their squares to at least 1/3.
+fn lift_face(cloth: &mut MovedCloth<'_>, touch: &Touch, lift: f64, surface_velocity: DVec3) {
+    let spread: f64 = touch.weights.iter().map(|w| w * w).sum();
+    let closing = touch.normal.dot(touch.weighted_sum(cloth.velocity) - surface_velocity);
+    for (&node, weight) in touch.nodes.iter().zip(&touch.weights) {
+        let share = weight / spread;
+        cloth.position[node] += touch.normal * (lift * share);
+        cloth.velocity[node] -= touch.normal * (closing.min(0.0) * share);
+    }
+}
+
+impl MovedCloth<'_> {
+    fn seen(&self) -> Cloth<'_> {
+        Cloth {
+            position: self.position,
+            velocity: self.velocity,
+            area: self.area,
+            faces: self.faces,
+        }
+    }
 }
 
 /// The relative velocity after an inelastic impact with Coulomb friction

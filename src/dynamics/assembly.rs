@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::bending::{Hinge, dihedral};
+use super::breakaway::Finding;
 use super::contact::{ContactPoint, ContactResponse};
 use super::damping::Lead;
 use super::handles::HandleSpring;
@@ -131,8 +132,12 @@ impl System {
         let mut active = 0;
         for (index, contact) in forces.contacts.iter().enumerate() {
             let Some(mut response) = self.response(contact, state, forces, dt) else { continue };
-            if let Some(Some(friction)) = self.breakaway.get(index) {
-                response = response.with_friction(contact.normal, *friction);
+            match self.findings.get(index).unwrap_or(&Finding::AsTaken) {
+                Finding::AsTaken => {}
+                Finding::Sliding(force) => {
+                    response = response.with_friction(contact.normal, *force);
+                }
+                Finding::Open => continue,
             }
             active += 1;
             for (k, (node, weight)) in contact.weights().enumerate() {

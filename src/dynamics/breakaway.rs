@@ -1,55 +1,67 @@
-//! Contacts that broke away within a step.
+//! Contacts that are not what they were taken for within a step.
 //!
 //! Friction is linearised about the slip at the start of the step. A point that sticks there may be
 //! torn off by forces far beyond mu N: linearised sticking would hold it all the same, and give way
-//! only over many steps. After the first solution such points are found, and the step is solved
-//! again with the friction they really have, mu N against their slip.
+//! only over many steps. A penalty is closed if inertia closes it, and would pull where the cloth
+//! lifts off. After the first solution such contacts are found, and the step is solved again with
+//! the friction they really have, mu N against their slip, or without them.
 
 use glam::DVec3;
 
 use super::step::{StepForces, StepState};
 use super::system::System;
 
+/// What a first solution has shown of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Finding {
+    /// Linearised well enough.
+    AsTaken,
+    /// Torn off: the friction it has (N).
+    Sliding(DVec3),
+    /// Lifted off: no force.
+    Open,
+}
+
 /// A contact has broken away if its friction exceeds mu N by this factor: below, the linearisation
 /// is corrected by the next step.
 const EXCESS_FACTOR: f64 = 1.5;
 
-/// The step is solved again if the friction in excess is at least this share of all mu N: less does
-/// not change how the cloth moves, and a second solution costs as much as the first.
-const EXCESS_SHARE: f64 = 0.02;
+/// The step is solved again if the forces that should not be are at least this share of all normal
+/// forces: less does not change how the cloth moves, and a second solution costs as much as the
+/// first.
+const EXCESS_SHARE: f64 = 0.01;
 
 impl System {
-    /// Notes the contacts that the solution (velocity changes in the right side) tears off; true
-    /// if the step should be solved again.
-    pub(super) fn note_breakaway(
+    /// Notes the contacts that the solution (velocity changes in the right side) finds torn or
+    /// lifted off; true if the step should be solved again.
+    pub(super) fn examine_contacts(
         &mut self,
         state: &StepState,
         forces: &StepForces<'_>,
         dt: f64,
     ) -> bool {
-        let (mut excess, mut available) = (0.0, 0.0);
-        let mut broken = vec![None; forces.contacts.len()];
-        for (contact, broken) in forces.contacts.iter().zip(&mut broken) {
+        let (mut excess, mut pressure) = (0.0, 0.0);
+        let mut findings = vec![Finding::AsTaken; forces.contacts.len()];
+        for (contact, finding) in forces.contacts.iter().zip(&mut findings) {
             let Some(response) = self.response(contact, state, forces, dt) else { continue };
             let change = contact.weighted_sum(&self.right_side);
             let force = response.force - response.tangent * change;
-            let limit = contact.friction * force.dot(contact.normal).max(0.0);
-            let held = force - contact.normal * force.dot(contact.normal);
-            available += limit;
-            if held.length() > EXCESS_FACTOR * limit {
+            let normal = force.dot(contact.normal);
+            let held = force - contact.normal * normal;
+            let limit = contact.friction * normal.max(0.0);
+            pressure += normal.max(0.0);
+            if normal < 0.0 {
+                excess -= normal;
+                *finding = Finding::Open;
+            } else if contact.friction > 0.0 && held.length() > EXCESS_FACTOR * limit {
                 excess += held.length() - limit;
-                *broken = Some(held.normalize_or_zero() * limit);
+                *finding = Finding::Sliding(held.normalize_or_zero() * limit);
             }
         }
-        let again = excess > EXCESS_SHARE * available;
+        let again = excess > EXCESS_SHARE * pressure;
         if again {
-            self.breakaway = broken;
+            self.findings = findings;
         }
         again
-    }
-
-    /// All contacts stick or slip as they did before.
-    pub(super) fn forget_breakaway(&mut self) {
-        self.breakaway = Vec::<Option<DVec3>>::new();
     }
 }

@@ -85,7 +85,9 @@ impl StepState {
         assert_eq!(start, self.position.len(), "the state has as many nodes as the meshes");
     }
 
-    fn check_finite(&self) -> Result<(), StepError> {
+    /// # Errors
+    /// The first position or velocity that is not finite.
+    pub fn check_finite(&self) -> Result<(), StepError> {
         finite("position", &self.position)?;
         finite("velocity", &self.velocity)
     }
@@ -127,9 +129,9 @@ impl System {
         assert_eq!(state.position.len(), self.node_count(), "positions are those of the system");
         assert_eq!(state.velocity.len(), self.node_count(), "velocities are those of the system");
         state.check_finite()?;
-        self.forget_breakaway();
+        self.findings.clear();
         let mut outcome = self.solve_step(state, forces, dt)?;
-        if self.note_breakaway(state, forces, dt) {
+        if self.examine_contacts(state, forces, dt) {
             outcome = self.solve_step(state, forces, dt)?;
         }
         // Checked before anything is written.

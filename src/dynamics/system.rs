@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::bending::{Hinge, dihedral_angle};
+use super::breakaway::Finding;
 use super::matrix::{BlockMatrix, Pattern};
 use super::solve::LinearSolver;
 use super::step::StepState;
@@ -30,9 +31,8 @@ pub struct System {
     pub(super) matrix: BlockMatrix,
     pub(super) right_side: Vec<DVec3>,
     pub(super) solver: LinearSolver,
-    /// Per contact of the step in work, the friction of one that broke away (N); empty while all
-    /// are taken to stick or slip as they did before.
-    pub(super) breakaway: Vec<Option<DVec3>>,
+    /// Per contact of the step in work; empty while all are taken for what they were.
+    pub(super) findings: Vec<Finding>,
 }
 
 /// A garment's share of the arrays.
@@ -87,7 +87,7 @@ impl System {
             matrix: BlockMatrix::zero(empty),
             right_side: Vec::new(),
             solver: LinearSolver::default(),
-            breakaway: Vec::new(),
+            findings: Vec::new(),
         };
         for (mesh, fabric) in meshes.iter().zip(fabrics) {
             system.append(mesh, fabric);
@@ -97,10 +97,9 @@ impl System {
         system
     }
 
-    /// The system with another one's solver: where the pattern is the same, its analysis is kept.
-    pub fn with_solver(mut self, solver: LinearSolver) -> Self {
+    /// Goes on with another system's solver: where the pattern is the same, its analysis is kept.
+    pub fn set_solver(&mut self, solver: LinearSolver) {
         self.solver = solver;
-        self
     }
 
     pub fn into_solver(self) -> LinearSolver {

@@ -25,6 +25,12 @@ pub enum Flaw {
     BrokenFan { node: NodeId, reached: usize, count: usize },
     #[error("{vertex:?} has no face")]
     UnusedVertex { vertex: VertexId },
+    #[error("the metric of {vertex:?} is not finite or has a negative eigenvalue")]
+    BadMetric { vertex: VertexId },
+    #[error("the view factor of {face:?} is {factor}, outside 0..1")]
+    BadViewFactor { face: FaceId, factor: f64 },
+    #[error("the rest angle at {corner:?} is not finite")]
+    NonFiniteRestAngle { corner: CornerId },
     #[error("{node:?} is not finite")]
     NonFiniteNode { node: NodeId },
 }
@@ -38,6 +44,7 @@ impl Mesh {
         self.check_lengths()?;
         self.check_faces()?;
         self.check_corners()?;
+        self.check_state()?;
         self.check_nodes()
     }
 
@@ -99,6 +106,26 @@ impl Mesh {
             }
         }
         Ok(())
+    }
+
+    fn check_state(&self) -> Result<(), Flaw> {
+        for (vertex, metric) in self.metric.enumerate() {
+            let eigenvalues = metric.eigen().values;
+            // Rounding may leave a rank-one metric a hair below zero.
+            let least = -1e-9 * eigenvalues[0].abs();
+            if !metric.is_finite() || eigenvalues[1] < least {
+                return Err(Flaw::BadMetric { vertex });
+            }
+        }
+        for (face, &factor) in self.view_factor.enumerate() {
+            if !(0.0..=1.0).contains(&factor) {
+                return Err(Flaw::BadViewFactor { face, factor });
+            }
+        }
+        match self.rest_angle.enumerate().find(|(_, angle)| !angle.is_finite()) {
+            Some((corner, _)) => Err(Flaw::NonFiniteRestAngle { corner }),
+            None => Ok(()),
+        }
     }
 
     fn check_nodes(&self) -> Result<(), Flaw> {

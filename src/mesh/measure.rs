@@ -2,7 +2,7 @@
 
 use glam::{DMat2, DVec2, DVec3};
 
-use super::{CornerId, FaceId, IdVec, Mesh, NodeId};
+use super::{CornerId, FaceId, IdVec, Mesh, NodeId, VertexId};
 use crate::math::Mat3x2;
 
 impl Mesh {
@@ -28,15 +28,18 @@ impl Mesh {
 
     /// Material gradients of the face's three linear shape functions (1/m); they add up to zero.
     pub fn shape_gradients(&self, face: FaceId) -> [DVec2; 3] {
-        let [a, b, c] = self.face_material(face);
-        let inverse = DMat2::from_cols(b - a, c - a).inverse();
-        let (gb, gc) = (inverse.row(0), inverse.row(1));
-        [-(gb + gc), gb, gc]
+        shape_gradients(self.face_material(face))
     }
 
     /// F = dx/du, constant over the face.
     pub fn deformation_gradient(&self, face: FaceId) -> Mat3x2 {
-        Mat3x2::from_gradients(self.face_positions(face), self.shape_gradients(face))
+        self.deformation_of(self.face_vertices(face))
+    }
+
+    /// F = dx/du of a face that three vertices would make.
+    pub fn deformation_of(&self, vertices: [VertexId; 3]) -> Mat3x2 {
+        let gradients = shape_gradients(vertices.map(|v| self.material(v)));
+        Mat3x2::from_gradients(vertices.map(|v| self.vertex_position(v)), gradients)
     }
 
     /// World normal times twice the world area (m^2).
@@ -100,6 +103,13 @@ impl Mesh {
             _ => side(corner),
         }
     }
+}
+
+/// Material gradients of the linear shape functions of a triangle (1/m).
+fn shape_gradients([a, b, c]: [DVec2; 3]) -> [DVec2; 3] {
+    let inverse = DMat2::from_cols(b - a, c - a).inverse();
+    let (gb, gc) = (inverse.row(0), inverse.row(1));
+    [-(gb + gc), gb, gc]
 }
 
 /// Half the cross product of two edges (m^2); positive for counter-clockwise corners.

@@ -114,10 +114,8 @@ fn a_node_may_not_leave_boundary_or_seam_nor_a_kept_node_go() {
     {
         let node = editor.split(edge);
         let mesh = editor.mesh();
-        let tip = mesh.corners_around(node).map(|c| c.next()).find_map(|c| {
-            let inner = !mesh.is_boundary(c) && !mesh.is_seam(c);
-            inner.then_some(c)
-        });
+        let mut around = mesh.corners_around(node).map(|c| c.next());
+        let tip = around.find(|&c| !mesh.is_boundary(c) && !mesh.is_seam(c));
         let corner = tip.unwrap();
         let [a, b] = mesh.edge_nodes(corner);
         let kept = if a == node { b } else { a };

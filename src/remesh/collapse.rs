@@ -1,6 +1,7 @@
 //! Collapsing edges that are shorter than they need be.
 
 use super::Remesher;
+use super::guard::{in_world, keeps_stretch};
 use super::queue::EdgeQueue;
 use crate::mesh::{Collapse, CornerId, Mesh, VertexId, aspect_ratio};
 
@@ -62,8 +63,12 @@ impl Remesher<'_> {
         if !shapes_kept || !self.are_edges_allowed(collapse, &faces) {
             return false;
         }
-        let in_world: Vec<_> = faces.iter().map(|f| f.map(|v| mesh.vertex_position(v))).collect();
-        let allowed = self.guard.allows(&in_world);
+        let corners = self.editor.moved_corners(collapse);
+        let mut old: Vec<_> = corners.map(|c| mesh.face_vertices(c.face())).collect();
+        let sides = [Some(collapse.corner), mesh.opposite(collapse.corner)];
+        old.extend(sides.into_iter().flatten().map(|c| mesh.face_vertices(c.face())));
+        let allowed = keeps_stretch(mesh, &faces, &old)
+            && self.guard.allows(&in_world(mesh, &faces), &in_world(mesh, &old));
         self.report.vetoes += usize::from(!allowed);
         allowed
     }

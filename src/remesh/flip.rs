@@ -1,5 +1,6 @@
 //! Flipping edges until the mesh is Delaunay in its metric.
 
+use super::guard::{in_world, keeps_stretch};
 use super::{Remesher, VALID_LENGTH_SQUARED};
 use crate::mesh::{CornerId, Mesh, aspect_ratio};
 
@@ -67,12 +68,12 @@ impl Remesher<'_> {
         };
         let new_faces = [[p, a, q], [q, b, p]];
         let new_aspect = least_aspect(new_faces);
-        if new_aspect < self.settings.aspect_min
-            && new_aspect < least_aspect([[p, a, b], [q, b, a]])
-        {
+        let old_faces = [[p, a, b], [q, b, a]];
+        if new_aspect < self.settings.aspect_min && new_aspect < least_aspect(old_faces) {
             return false;
         }
-        let allowed = self.guard.allows(&new_faces.map(|f| f.map(|v| mesh.vertex_position(v))));
+        let allowed = keeps_stretch(mesh, &new_faces, &old_faces)
+            && self.guard.allows(&in_world(mesh, &new_faces), &in_world(mesh, &old_faces));
         self.report.vetoes += usize::from(!allowed);
         allowed
     }

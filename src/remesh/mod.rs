@@ -38,7 +38,8 @@ pub struct RemeshReport {
     pub splits: usize,
     pub collapses: usize,
     pub flips: usize,
-    /// Edits given up because the guard saw an intersection.
+    /// Edits given up for what they would do in the world: stretch, or an intersection that the
+    /// guard saw.
     pub vetoes: usize,
     /// Edges longer than 1 in the metric that remain: only at the limit of faces.
     pub invalid_edges: usize,

@@ -6,7 +6,7 @@ use super::StateError;
 use super::bytes::{ByteReader, ByteWriter};
 use crate::mesh::{Mesh, MeshParts, NodeOrigin};
 use crate::scene::Surface;
-use crate::sim::{Frame, FrameReport, StageSeconds};
+use crate::sim::{Frame, FrameReport, StageCounts, StageSeconds};
 
 /// A frame's content, without the envelope.
 pub(super) fn frame_bytes(frame: &Frame) -> Vec<u8> {
@@ -49,6 +49,7 @@ fn put_report(writer: &mut ByteWriter, report: &FrameReport) {
     // Exhaustive, so that a new field cannot be forgotten here.
     let FrameReport {
         stages,
+        counts,
         cpu_seconds,
         view_factor_min,
         view_factor_mean,
@@ -59,6 +60,7 @@ fn put_report(writer: &mut ByteWriter, report: &FrameReport) {
         warnings,
     } = report;
     writer.put(stages.entries().map(|(_, seconds)| seconds));
+    writer.put(counts.entries().map(|(_, count)| count));
     writer.put([*cpu_seconds, *view_factor_min, *view_factor_mean, *largest_stretch]);
     writer.put(*steps_taken);
     writer.put(u8::from(intersections.is_some()));
@@ -84,6 +86,10 @@ fn get_report(reader: &mut ByteReader) -> Result<FrameReport, StateError> {
         untangle,
         other,
     };
+    let [contacts, impacts, degenerate_hinges, splits, collapses, flips, vetoes] =
+        reader.get("stage counts")?;
+    let counts =
+        StageCounts { contacts, impacts, degenerate_hinges, splits, collapses, flips, vetoes };
     let [cpu_seconds, view_factor_min, view_factor_mean, largest_stretch] =
         reader.get("frame measures")?;
     let steps_taken = reader.get("step count")?;
@@ -93,6 +99,7 @@ fn get_report(reader: &mut ByteReader) -> Result<FrameReport, StateError> {
     let warnings = get_warnings(reader)?;
     Ok(FrameReport {
         stages,
+        counts,
         cpu_seconds,
         view_factor_min,
         view_factor_mean,

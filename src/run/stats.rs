@@ -8,7 +8,7 @@ use super::RunError;
 use crate::sim::{Frame, FrameReport};
 
 /// The columns in order. More may follow in later versions; these stay first.
-pub const STATS_COLUMNS: [&str; 22] = [
+pub const STATS_COLUMNS: [&str; 29] = [
     "frame",
     "time_s",
     "faces",
@@ -31,6 +31,13 @@ pub const STATS_COLUMNS: [&str; 22] = [
     "steps_taken",
     "largest_stretch",
     "trapped_nodes",
+    "contacts",
+    "impacts",
+    "degenerate_hinges",
+    "splits",
+    "collapses",
+    "flips",
+    "vetoes",
 ];
 
 /// Appends rows; each is in the file when `append` returns.
@@ -88,6 +95,7 @@ pub(super) fn rows(path: &Path) -> Vec<(i64, String)> {
 pub(super) fn row(shown: i64, frame: &Frame) -> String {
     let FrameReport {
         stages,
+        counts,
         cpu_seconds,
         view_factor_min,
         view_factor_mean,
@@ -115,6 +123,7 @@ pub(super) fn row(shown: i64, frame: &Frame) -> String {
         largest_stretch.to_string(),
         trapped_nodes.to_string(),
     ]);
+    fields.extend(counts.entries().map(|(_, count)| count.to_string()));
     debug_assert_eq!(fields.len(), STATS_COLUMNS.len());
     fields.join(",")
 }
@@ -122,11 +131,13 @@ pub(super) fn row(shown: i64, frame: &Frame) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::StageSeconds;
+    use crate::sim::{StageCounts, StageSeconds};
 
     #[test]
     fn the_stage_columns_are_the_stages_in_their_order() {
         let names = StageSeconds::default().entries().map(|(name, _)| format!("{name}_s"));
         assert_eq!(STATS_COLUMNS[7..16], names);
+        let counts = StageCounts::default().entries().map(|(name, _)| name);
+        assert_eq!(STATS_COLUMNS[22..], counts);
     }
 }

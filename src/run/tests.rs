@@ -14,7 +14,7 @@ use super::*;
 use crate::math::SymTensor2;
 use crate::mesh::{Id, Mesh, RawMesh, VertexId};
 use crate::scene::{Pose, Surface};
-use crate::sim::{Frame, FrameReport, StageSeconds};
+use crate::sim::{Frame, FrameReport, StageCounts, StageSeconds};
 
 fn info() -> RunInfo {
     let settings = json!({"fps": 25.0, "viewers": [{"name": "close-up"}]});
@@ -69,6 +69,7 @@ fn frame(number: u32) -> Frame {
         }],
         report: FrameReport {
             stages,
+            counts: StageCounts { contacts: 5, splits: 2, ..StageCounts::default() },
             cpu_seconds: 0.875,
             view_factor_min: 0.01,
             view_factor_mean: 0.5,
@@ -150,9 +151,9 @@ fn statistics_have_the_agreed_columns_and_the_frame_numbers_of_the_shot() {
         "frame,time_s,faces,vertices,nodes,wall_s,cpu_s,obstacles_s,proximity_s,dynamics_s,\
          collision_s,sizing_s,view_s,remesh_s,untangle_s,other_s,view_factor_min,\
          view_factor_mean,intersections,steps_taken,largest_stretch,\
-         trapped_nodes\n\
-         1001,0,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,,8,0.125,2\n\
-         1002,0.04,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,3,8,0.125,2\n"
+         trapped_nodes,contacts,impacts,degenerate_hinges,splits,collapses,flips,vetoes\n\
+         1001,0,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,,8,0.125,2,5,0,0,2,0,0,0\n\
+         1002,0.04,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,3,8,0.125,2,5,0,0,2,0,0,0\n"
     );
 }
 

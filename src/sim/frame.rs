@@ -37,6 +37,7 @@ impl Frame {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrameReport {
     pub stages: StageSeconds,
+    pub counts: StageCounts,
     /// Process CPU time over the frame (s).
     pub cpu_seconds: f64,
     pub view_factor_min: f64,
@@ -48,10 +49,43 @@ pub struct FrameReport {
     pub steps_taken: u32,
     /// Largest principal stretch of a face minus 1.
     pub largest_stretch: f64,
-    /// Nodes inside an obstacle after the last step, as between two parts that overlap.
+    /// Nodes inside an obstacle at the end of the frame, as between two parts that overlap.
     pub trapped_nodes: usize,
     /// What went wrong and was mended, in words.
     pub warnings: Vec<String>,
+}
+
+/// What the stages did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StageCounts {
+    /// Contacts that pushed in the last step.
+    pub contacts: u64,
+    /// Nodes and faces that had to be led out of obstacles.
+    pub impacts: u64,
+    /// Most hinges in a step that had lost their angle and resisted nothing.
+    pub degenerate_hinges: u64,
+    pub splits: u64,
+    pub collapses: u64,
+    pub flips: u64,
+    /// Collapses and flips left out for what they would do in the world.
+    pub vetoes: u64,
+}
+
+impl StageCounts {
+    /// Names as in `stats.csv`, and values in that order.
+    pub fn entries(&self) -> [(&'static str, u64); 7] {
+        // Exhaustive, so that a new count cannot be forgotten here.
+        let Self { contacts, impacts, degenerate_hinges, splits, collapses, flips, vetoes } = *self;
+        [
+            ("contacts", contacts),
+            ("impacts", impacts),
+            ("degenerate_hinges", degenerate_hinges),
+            ("splits", splits),
+            ("collapses", collapses),
+            ("flips", flips),
+            ("vetoes", vetoes),
+        ]
+    }
 }
 
 /// Wall seconds by stage.

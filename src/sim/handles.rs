@@ -14,6 +14,21 @@ pub struct Anchors {
     points: Vec<Vec<Option<DVec3>>>,
 }
 
+/// The global numbers of the nodes that handles hold: per handle and node of it. They change with
+/// every remeshing.
+pub struct HeldNodes(Vec<Vec<Option<usize>>>);
+
+impl HeldNodes {
+    pub fn new(scene: &Scene, garments: &[Mesh]) -> Self {
+        let of = |handle: &Handle| {
+            let first: usize = garments[..handle.garment].iter().map(Mesh::node_count).sum();
+            let nodes = nodes_by_input(&garments[handle.garment]);
+            handle.nodes.iter().map(|input| Some(first + nodes.get(input)?.index())).collect()
+        };
+        Self(scene.handles.iter().map(of).collect())
+    }
+}
+
 impl Anchors {
     /// Handles that hold from the beginning hold the nodes where the scene puts them.
     pub fn new(scene: &Scene) -> Self {
@@ -31,31 +46,40 @@ impl Anchors {
     }
 
     /// The springs of all handles that hold at a time (s). A node's target moves with the handle's
-    /// motion since the handle took hold.
+    /// motion since the handle took hold; a node that it takes hold of now is held where it is.
     pub fn springs(
-        &mut self,
+        &self,
         scene: &Scene,
-        garments: &[Mesh],
+        held: &HeldNodes,
         position: &[DVec3],
         time: f64,
     ) -> Vec<HandleSpring> {
         let mut springs = Vec::new();
-        for (handle, points) in scene.handles.iter().zip(&mut self.points) {
-            if time < handle.start_time || time > handle.end_time {
-                continue;
-            }
-            let first: usize = garments[..handle.garment].iter().map(Mesh::node_count).sum();
-            let nodes = nodes_by_input(&garments[handle.garment]);
-            for (input, point) in handle.nodes.iter().zip(points) {
-                let Some(node) = nodes.get(input) else { continue };
-                let node = first + node.index();
-                let anchor = *point.get_or_insert(position[node]);
-                let target = moved(scene, handle, anchor, time);
+        for (index, handle) in scene.handles.iter().enumerate().filter(|(_, h)| holds(h, time)) {
+            for (&node, &point) in held.0[index].iter().zip(&self.points[index]) {
+                let Some(node) = node else { continue };
+                let target = moved(scene, handle, point.unwrap_or(position[node]), time);
                 springs.push(HandleSpring { node, target, stiffness: scene.handle_stiffness });
             }
         }
         springs
     }
+
+    /// Remembers where the nodes were of which a handle took hold in a step that ended at `time`
+    /// (s). `position` is from the start of the step.
+    pub fn take_hold(&mut self, scene: &Scene, held: &HeldNodes, position: &[DVec3], time: f64) {
+        for (index, _) in scene.handles.iter().enumerate().filter(|(_, h)| holds(h, time)) {
+            for (&node, point) in held.0[index].iter().zip(&mut self.points[index]) {
+                if let Some(node) = node {
+                    point.get_or_insert(position[node]);
+                }
+            }
+        }
+    }
+}
+
+fn holds(handle: &Handle, time: f64) -> bool {
+    (handle.start_time..=handle.end_time).contains(&time)
 }
 
 fn moved(scene: &Scene, handle: &Handle, anchor: DVec3, time: f64) -> DVec3 {

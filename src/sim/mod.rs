@@ -15,18 +15,18 @@ mod settings;
 mod start;
 mod step;
 
-pub use frame::{Frame, FrameReport, StageSeconds};
+pub use frame::{Frame, FrameReport, StageCounts, StageSeconds};
 pub use settings::{SimSettings, SizingMode};
 pub use step::SimError;
 
 use std::sync::Arc;
 
-use crate::collision::{FaceTree, Obstacles};
+use crate::collision::{Depth, FaceTree, Obstacles, trapped_nodes};
 use crate::dynamics::{StepState, System};
 use crate::mesh::{FaceId, IdVec, Mesh};
 use crate::scene::{Fabric, Pose, Scene};
-use clock::StageClock;
-use handles::Anchors;
+use clock::{Stage, StageClock};
+use handles::{Anchors, HeldNodes};
 use step::Regime;
 
 /// A shot being simulated: the state after the last published frame.
@@ -49,6 +49,7 @@ struct MovingCloth {
     area: Vec<f64>,
     faces: Vec<[u32; 3]>,
     tree: FaceTree,
+    held: HeldNodes,
 }
 
 impl Simulation {
@@ -72,6 +73,7 @@ impl Simulation {
         };
         let mut report = FrameReport::default();
         simulation.settle(&mut clock, &mut report)?;
+        clock.time(Stage::Collision, || simulation.clear_obstacles(&mut report));
         let frame = simulation.publish(clock, report);
         Ok((simulation, frame))
     }
@@ -94,7 +96,25 @@ impl Simulation {
         if self.is_remeshing() {
             self.refine(&mut clock, &mut report);
         }
+        clock.time(Stage::Collision, || self.clear_obstacles(&mut report));
         Ok(self.publish(clock, report))
+    }
+
+    /// Cloth that is inside an obstacle, however deep, is led out once a frame: where a coarse face
+    /// had sagged into one, a split makes nodes there. Counts what cannot be led out.
+    fn clear_obstacles(&mut self, report: &mut FrameReport) {
+        if self.obstacles.is_empty() || !self.scene.stages.collision {
+            return;
+        }
+        let poses = self.obstacle_poses();
+        let obstacles = self.obstacles.moving(&poses, &poses, self.scene.step_time());
+        let start = self.cloth.state.position.clone();
+        let impacts = self.cloth.lead_out(&start, &obstacles, &self.scene.contact, Depth::Any);
+        report.counts.impacts += impacts as u64;
+        if impacts > 0 {
+            self.cloth.write_back(&mut self.garments);
+        }
+        report.trapped_nodes = trapped_nodes(&self.cloth.state.position, &obstacles);
     }
 
     pub fn scene(&self) -> &Arc<Scene> {
@@ -132,28 +152,31 @@ impl MovingCloth {
     fn new(scene: &Scene, garments: &[Mesh]) -> Self {
         let meshes: Vec<&Mesh> = garments.iter().collect();
         let fabrics: Vec<&Fabric> = scene.garments.iter().map(|g| &g.fabric).collect();
-        let position = meshes.iter().flat_map(|m| m.position.iter().copied()).collect();
-        let velocity = meshes.iter().flat_map(|m| m.velocity.iter().copied()).collect();
-        let area = meshes.iter().flat_map(|m| m.node_areas().into_vec()).collect();
+        let state = StepState::gathered(&meshes);
         let faces = global_faces(garments);
-        let state = StepState { position, velocity };
         Self {
             system: System::new(&meshes, &fabrics),
             tree: FaceTree::new(&state.position, &faces),
+            area: meshes.iter().flat_map(|m| m.node_areas().into_vec()).collect(),
+            held: HeldNodes::new(scene, garments),
             state,
-            area,
             faces,
         }
     }
 
+    /// Takes in that garments have been remeshed. What the solver knows about the pattern of the
+    /// matrix is kept where the pattern is the same.
+    fn renew(&mut self, scene: &Scene, garments: &[Mesh]) {
+        let old = std::mem::replace(self, Self::new(scene, garments));
+        self.system.set_solver(old.system.into_solver());
+    }
+
+    fn refit(&mut self) {
+        self.tree.refit(&self.state.position, &self.faces);
+    }
+
     fn write_back(&self, garments: &mut [Mesh]) {
-        let mut first = 0;
-        for mesh in garments {
-            let nodes = first..first + mesh.node_count();
-            mesh.position.as_mut_slice().copy_from_slice(&self.state.position[nodes.clone()]);
-            mesh.velocity.as_mut_slice().copy_from_slice(&self.state.velocity[nodes]);
-            first += mesh.node_count();
-        }
+        self.state.scatter(&mut garments.iter_mut().collect::<Vec<_>>());
     }
 }
 
@@ -172,3 +195,6 @@ fn global_faces(garments: &[Mesh]) -> Vec<[u32; 3]> {
 
 /// One value per face, for all faces of a mesh.
 type PerFace<T> = IdVec<FaceId, T>;
+
+#[cfg(test)]
+mod tests;

@@ -2,10 +2,10 @@
 
 use super::clock::{Stage, StageClock};
 use super::frame::FrameReport;
-use super::{MovingCloth, PerFace, Simulation, SizingMode};
+use super::{PerFace, Simulation, SizingMode};
 use crate::collision::{ObstacleGuard, ObstacleMotion, nearest_planes};
 use crate::math::SymTensor2;
-use crate::mesh::{IdVec, Mesh, NodeId};
+use crate::mesh::{IdVec, NodeId};
 use crate::remesh::{NoGuard, RemeshReport, RemeshSettings, remesh};
 use crate::sizing::{Plane, base_metric, faces_to_vertices};
 use crate::view::{ViewerWindow, view_field};
@@ -19,21 +19,54 @@ impl Simulation {
     pub(super) fn refine(&mut self, clock: &mut StageClock, report: &mut FrameReport) {
         let poses = self.obstacle_poses();
         let obstacles = self.obstacles.moving(&poses, &poses, self.scene.step_time());
+        let mut edits = 0;
         for index in 0..self.garments.len() {
             let planes = clock.time(Stage::Sizing, || self.planes(index, &obstacles));
             let base = clock.time(Stage::Sizing, || self.base_metric(index, &planes));
             clock.time(Stage::View, || self.set_metric(index, base));
             let done = clock.time(Stage::Remesh, || self.remesh(index, &obstacles));
-            if done.invalid_edges > 0 {
-                let name = &self.scene.garments[index].name;
-                report.warnings.push(format!(
-                    "garment {name:?}: {} edges stay too long at the limit of {} faces",
-                    done.invalid_edges,
-                    RemeshSettings::default().face_count_max
-                ));
-            }
+            edits += done.splits + done.collapses + done.flips;
+            self.note(index, done, report);
         }
-        clock.time(Stage::Remesh, || self.cloth = MovingCloth::new(&self.scene, &self.garments));
+        if edits > 0 {
+            clock.time(Stage::Remesh, || self.cloth.renew(&self.scene, &self.garments));
+        }
+    }
+
+    fn note(&self, index: usize, done: RemeshReport, report: &mut FrameReport) {
+        let counts = &mut report.counts;
+        counts.splits += done.splits as u64;
+        counts.collapses += done.collapses as u64;
+        counts.flips += done.flips as u64;
+        counts.vetoes += done.vetoes as u64;
+        if done.invalid_edges > 0 {
+            report.warnings.push(format!(
+                "garment {:?}: {} edges stay too long at the limit of {} faces",
+                self.scene.garments[index].name,
+                done.invalid_edges,
+                RemeshSettings::default().face_count_max
+            ));
+        }
+    }
+
+    /// Remeshes every garment to edges of one length: that asked for, or its sizing's finest.
+    pub(super) fn make_uniform(
+        &mut self,
+        edge_length: Option<f64>,
+        clock: &mut StageClock,
+        report: &mut FrameReport,
+    ) {
+        let poses = self.obstacle_poses();
+        let obstacles = self.obstacles.moving(&poses, &poses, self.scene.step_time());
+        for index in 0..self.garments.len() {
+            let length = edge_length.unwrap_or(self.scene.garments[index].sizing.edge_length_min);
+            let metric = SymTensor2::isotropic(1.0 / (length * length));
+            let mesh = &mut self.garments[index];
+            mesh.metric = IdVec::filled(metric, mesh.vertex_count());
+            let done = clock.time(Stage::Remesh, || self.remesh(index, &obstacles));
+            self.note(index, done, report);
+        }
+        clock.time(Stage::Remesh, || self.cloth.renew(&self.scene, &self.garments));
     }
 
     fn planes(&self, index: usize, obstacles: &[ObstacleMotion]) -> IdVec<NodeId, Option<Plane>> {
@@ -80,13 +113,4 @@ impl Simulation {
         self.garments[index] = mesh;
         report
     }
-}
-
-/// Refines a mesh until no edge is longer than `edge_length` (m).
-pub(super) fn refine_uniformly(mesh: Mesh, edge_length: f64, aspect_min: f64) -> Mesh {
-    let mut mesh = mesh;
-    let metric = SymTensor2::isotropic(1.0 / (edge_length * edge_length));
-    mesh.metric = IdVec::filled(metric, mesh.vertex_count());
-    let settings = RemeshSettings { aspect_min, ..RemeshSettings::default() };
-    remesh(mesh, &settings, &NoGuard).0
 }

@@ -4,9 +4,8 @@ use glam::DVec3;
 
 use super::clock::StageClock;
 use super::frame::FrameReport;
-use super::refine::refine_uniformly;
 use super::step::Regime;
-use super::{MovingCloth, SimError, Simulation, SizingMode};
+use super::{SimError, Simulation, SizingMode};
 
 /// Rounds of refining and relaxing.
 const ROUNDS_MAX: usize = 12;
@@ -29,7 +28,11 @@ impl Simulation {
         clock: &mut StageClock,
         report: &mut FrameReport,
     ) -> Result<(), SimError> {
-        self.make_uniform();
+        if let SizingMode::Uniform { edge_length } = self.settings.sizing
+            && (self.scene.stages.remeshing || edge_length.is_some())
+        {
+            self.make_uniform(edge_length, clock, report);
+        }
         let at_rest = self.cloth.state.velocity.iter().all(|v| *v == DVec3::ZERO);
         for _ in 0..ROUNDS_MAX {
             let faces = self.face_count();
@@ -39,23 +42,15 @@ impl Simulation {
             let at_ease = !at_rest || self.relax(clock, report)?;
             let change = self.face_count().abs_diff(faces) as f64 / faces as f64;
             if at_ease && change < FACE_CHANGE_MIN {
-                break;
+                report.steps_taken = 0;
+                return Ok(());
             }
         }
         report.steps_taken = 0;
+        report.warnings.push(format!(
+            "the cloth is not at ease after {ROUNDS_MAX} rounds of relaxation: it will move at frame 1"
+        ));
         Ok(())
-    }
-
-    fn make_uniform(&mut self) {
-        let SizingMode::Uniform { edge_length } = self.settings.sizing else { return };
-        if !self.scene.stages.remeshing && edge_length.is_none() {
-            return;
-        }
-        for (mesh, garment) in self.garments.iter_mut().zip(&self.scene.garments) {
-            let length = edge_length.unwrap_or(garment.sizing.edge_length_min);
-            *mesh = refine_uniformly(std::mem::take(mesh), length, garment.sizing.aspect_min);
-        }
-        self.cloth = MovingCloth::new(&self.scene, &self.garments);
     }
 
     /// Some steps that each end at rest; true if the last one moved next to nothing.

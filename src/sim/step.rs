@@ -3,12 +3,12 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::Simulation;
 use super::clock::{Stage, StageClock};
 use super::frame::FrameReport;
-use crate::collision::{Cloth, MovedCloth, ObstacleMotion, Obstacles, contacts, resolve};
+use super::{MovingCloth, Simulation};
+use crate::collision::{Cloth, Depth, MovedCloth, ObstacleMotion, Obstacles, contacts, resolve};
 use crate::dynamics::{StepError, StepForces, StepState};
-use crate::scene::Air;
+use crate::scene::Contact;
 
 /// Why a simulation cannot go on.
 #[derive(Debug, Error)]
@@ -28,8 +28,8 @@ pub(super) enum Regime {
     Relaxation,
 }
 
-/// A step is halved at most so often: 5 ms become 78 microseconds, below which rounding errors grow
-/// faster than the step shrinks.
+/// A step is halved at most so often: 5 ms become 78 microseconds. What fails in a step as short as
+/// that is not the step's fault.
 const HALVINGS_MAX: u32 = 6;
 
 impl Simulation {
@@ -49,19 +49,19 @@ impl Simulation {
         while done < whole {
             let part = whole >> halvings;
             let step_time = duration * f64::from(part) / f64::from(whole);
-            let start = time + duration * f64::from(done) / f64::from(whole);
+            let passed = match regime {
+                Regime::Motion => duration * f64::from(done) / f64::from(whole),
+                Regime::Relaxation => 0.0,
+            };
+            let start = time + passed;
             match self.try_step(start, step_time, regime, clock, report) {
                 Ok(()) => {
                     report.steps_taken += 1;
                     done += part;
                 }
                 Err(cause) if halvings == HALVINGS_MAX => {
-                    return Err(SimError::Step {
-                        frame: self.frame + 1,
-                        time: start,
-                        step_time,
-                        cause,
-                    });
+                    let frame = self.frame + u32::from(regime == Regime::Motion);
+                    return Err(SimError::Step { frame, time: start, step_time, cause });
                 }
                 Err(cause) => {
                     halvings += 1;
@@ -84,27 +84,41 @@ impl Simulation {
         let scene = self.scene.clone();
         let (end, gravity, air) = match regime {
             Regime::Motion => (time + step_time, scene.gravity, scene.air),
-            Regime::Relaxation => (time, DVec3::ZERO, Air { density: 0.0, ..scene.air }),
+            Regime::Relaxation => (time, StepForces::NONE.gravity, StepForces::NONE.air),
         };
+        let before = self.cloth.state.clone();
         let (obstacles, handles) = clock.time(Stage::Obstacles, || {
             let poses = [time, end].map(|t| Obstacles::poses(&scene, t));
             let moving = self.obstacles.moving(&poses[0], &poses[1], step_time);
-            let position = &self.cloth.state.position;
-            (moving, self.anchors.springs(&scene, &self.garments, position, end))
+            (moving, self.anchors.springs(&scene, &self.cloth.held, &before.position, end))
         });
         let contacts = match scene.stages.proximity {
             true => clock.time(Stage::Proximity, || self.contacts(&obstacles)),
             false => Vec::new(),
         };
-        let before = self.cloth.state.clone();
         if scene.stages.dynamics {
             let forces = StepForces { gravity, air, handles: &handles, contacts: &contacts };
             let cloth = &mut self.cloth;
-            clock.time(Stage::Dynamics, || {
+            let outcome = clock.time(Stage::Dynamics, || {
                 cloth.system.step(&mut cloth.state, &forces, step_time)
             })?;
+            let counts = &mut report.counts;
+            counts.contacts = outcome.active_contacts as u64;
+            counts.degenerate_hinges =
+                counts.degenerate_hinges.max(outcome.degenerate_hinges as u64);
         }
         clock.time(Stage::Collision, || self.resolve(&before, &obstacles, report));
+        self.keep_if_finite(before, end)
+    }
+
+    /// Ends a step: a state that is not finite is dropped for the one before.
+    fn keep_if_finite(&mut self, before: StepState, end: f64) -> Result<(), StepError> {
+        if let Err(error) = self.cloth.state.check_finite() {
+            self.cloth.state = before;
+            self.cloth.refit();
+            return Err(error);
+        }
+        self.anchors.take_hold(&self.scene, &self.cloth.held, &before.position, end);
         Ok(())
     }
 
@@ -125,18 +139,39 @@ impl Simulation {
         obstacles: &[ObstacleMotion],
         report: &mut FrameReport,
     ) {
-        if obstacles.is_empty() || !self.scene.stages.collision {
+        if obstacles.is_empty() {
             return;
         }
-        let cloth = &mut self.cloth;
+        if self.scene.stages.collision {
+            let impacts = self.cloth.lead_out(
+                &before.position,
+                obstacles,
+                &self.scene.contact,
+                Depth::OfTheStep,
+            );
+            report.counts.impacts += impacts as u64;
+        } else {
+            self.cloth.refit();
+        }
+    }
+}
+
+impl MovingCloth {
+    /// Leads the cloth out of the obstacles; see [`resolve`].
+    pub(super) fn lead_out(
+        &mut self,
+        position_at_start: &[DVec3],
+        obstacles: &[ObstacleMotion],
+        settings: &Contact,
+        depth: Depth,
+    ) -> usize {
         let mut moved = MovedCloth {
-            position: &mut cloth.state.position,
-            velocity: &mut cloth.state.velocity,
-            position_at_start: &before.position,
-            area: &cloth.area,
-            faces: &cloth.faces,
+            position: &mut self.state.position,
+            velocity: &mut self.state.velocity,
+            position_at_start,
+            area: &self.area,
+            faces: &self.faces,
         };
-        let resolved = resolve(&mut moved, &mut cloth.tree, obstacles, &self.scene.contact);
-        report.trapped_nodes = resolved.trapped;
+        resolve(&mut moved, &mut self.tree, obstacles, settings, depth)
     }
 }
