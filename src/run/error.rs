@@ -26,7 +26,7 @@ pub enum RunError {
     NotARun { path: PathBuf },
     #[error("\"{}\" is not empty and not a run folder: choose another folder", path.display())]
     Occupied { path: PathBuf },
-    #[error("\"{}\" already holds a run: resume it, overwrite it or choose another folder", path.display())]
+    #[error("\"{}\" already holds a run: replace it with --overwrite or choose another folder", path.display())]
     AlreadyARun { path: PathBuf },
     #[error("\"{}\" has no frame {number}: {}", path.display(), held(*.first_and_last))]
     NoSuchFrame { path: PathBuf, number: u32, first_and_last: Option<[u32; 2]> },

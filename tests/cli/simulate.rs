@@ -109,7 +109,7 @@ fn a_run_is_replaced_only_on_request() {
     shot.run("simulate shot.json --out run --frames 3 --obj").succeeds();
     let before = shot.text("run/stats.csv");
     shot.run("simulate shot.json --out run --frames 1")
-        .fails(3, &["\"run\" already holds a run", "overwrite"]);
+        .fails(3, &["\"run\" already holds a run", "--overwrite"]);
     assert_eq!(shot.text("run/stats.csv"), before);
     shot.run("simulate shot.json --out run --frames 1 --overwrite").succeeds();
     assert_eq!(shot.reader("run").frames(), [0, 1]);
