@@ -22,7 +22,8 @@ pub struct ShotArgs {
     /// Frames per second, where scene and camera disagree
     #[arg(long, value_parser = parse_rate, allow_negative_numbers = true)]
     pub fps: Option<f64>,
-    /// Frames, both ends included, counted from 0 whatever the shot calls them: N means 0..N
+    /// Frames, both ends included, counted from 0 whatever the shot calls them: N means 0..N.
+    /// Without it as far as both shot and camera go
     #[arg(long, value_name = "A..B", value_parser = parse_frames)]
     pub frames: Option<FrameRange>,
     /// How the resolution of the cloth is chosen; without it view
@@ -95,11 +96,13 @@ impl FrameRange {
     }
 }
 
+/// The last frame that can be asked for: days of film, and a list of its frames still fits in memory.
+const FRAME_MAX: u32 = 9_999_999;
+
 fn parse_frames(text: &str) -> Result<FrameRange, String> {
     let number = |part: &str| {
-        part.trim()
-            .parse::<u32>()
-            .map_err(|_| format!("{part:?} is not a frame number (0 or more)"))
+        let number = part.trim().parse().ok().filter(|&n| n <= FRAME_MAX);
+        number.ok_or_else(|| format!("{part:?} is not a frame number (0 to {FRAME_MAX})"))
     };
     let (first, last) = match text.split_once("..") {
         Some((first, last)) => (number(first)?, number(last)?),
@@ -149,7 +152,7 @@ mod tests {
 
     #[test]
     fn backward_and_unreadable_ranges_are_refused() {
-        for text in ["7..3", "a..3", "-1", "1...3", ""] {
+        for text in ["7..3", "a..3", "-1", "1...3", "", "4294967295"] {
             assert!(parse_frames(text).is_err(), "{text:?}");
         }
     }

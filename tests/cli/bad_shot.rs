@@ -57,6 +57,7 @@ fn numbers_out_of_range_are_answered_with_their_limit() {
         ("\"fps\"", "\"view\": {\"nu_out\": 0}, \"fps\"", &["view.nu_out is 0", "at most 1"]),
         ("\"fps\"", "\"view\": {\"nu_back\": 1.5}, \"fps\"", &["view.nu_back is 1.5", "at most 1"]),
         ("\"fps\"", "\"contact\": {\"thickness\": -1}, \"fps\"", &["contact.thickness is -1"]),
+        ("\"fps\"", "\"first_frame\": 9223372036854775807, \"fps\"", &["first_frame is 9223372"]),
         ("[6, 8]", "[6, 9]", &["shot.json:15:31", "handles.0.nodes.1 is 9", "less than 9"]),
         ("[6, 8]", "[]", &["handles.0.nodes is empty"]),
     ] {

@@ -7,7 +7,8 @@ use std::process::{Command, Output, Stdio};
 pub fn command(folder: &Path, line: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_shotsilk"));
     command.current_dir(folder).args(line.split_whitespace()).stdin(Stdio::null());
-    command.env_remove("SHOTSILK_LOG");
+    // Temporary files are seen by the tests that look for what is left behind.
+    command.env_remove("SHOTSILK_LOG").env("TMPDIR", folder);
     // Vulkan's loader complains without one.
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
         command.env("XDG_RUNTIME_DIR", folder);

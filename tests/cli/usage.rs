@@ -37,11 +37,13 @@ fn wrong_command_lines_are_refused_with_what_would_have_been_right() {
 }
 
 #[test]
-fn a_shot_without_an_end_asks_for_frames() {
+fn a_shot_ends_with_its_camera_and_asks_for_frames_where_nothing_ends() {
     let shot = SmallShot::new();
     shot.replace("shot.json", "\"frames\": 4,", "");
     shot.run("simulate shot.json --out of-camera").succeeds();
     assert_eq!(shot.reader("of-camera").last_frame(), Some(4));
+    shot.run("simulate shot.json --out longer --set frames=9").succeeds();
+    assert_eq!(shot.reader("longer").last_frame(), Some(4));
     shot.replace("shot.json", "\"camera\": \"main.camera.json\",", "");
     shot.run("simulate shot.json --out run").fails(2, &["\"shot.json\"", "--frames"]);
     assert!(!shot.path("run").exists());

@@ -39,7 +39,7 @@ pub struct ShotFile {
     /// proportionally higher cost.
     #[serde(default = "default_steps_per_frame")]
     pub steps_per_frame: u32,
-    /// The last frame, counted from 0; absent: runs until told to stop.
+    /// The last frame, counted from 0; absent: as far as the shot camera goes.
     pub frames: Option<u32>,
     /// What frame 0 is called where frames are shown and written, for example 1001. Default 0.
     #[serde(default)]

@@ -22,6 +22,9 @@ use limit::{Limit, check, out_of_range};
 pub(super) use camera::CameraRequest;
 pub use camera::{load_camera, recorded_viewers};
 
+/// Far from where adding a frame's number would overflow.
+const FIRST_FRAME_LIMIT: Limit = Limit::Between(-1e9, 1e9);
+
 /// Everything needed to turn a shot file into a scene.
 pub(super) struct Resolver<'a> {
     /// The shot file as a tree, for places.
@@ -121,6 +124,7 @@ impl<'a> Resolver<'a> {
         let mut numbers = vec![
             ("fps".to_owned(), file.fps, Limit::Positive),
             ("steps_per_frame".to_owned(), steps, Limit::AtLeast(1.0)),
+            ("first_frame".to_owned(), file.first_frame as f64, FIRST_FRAME_LIMIT),
             ("air.density".to_owned(), file.air.density, Limit::AtLeastZero),
             ("air.tangential_drag".to_owned(), file.air.tangential_drag, Limit::AtLeastZero),
             ("contact.thickness".to_owned(), file.contact.thickness, Limit::Positive),
