@@ -53,13 +53,6 @@ impl Side {
             Side::Right => 1.0,
         }
     }
-
-    pub fn other(self) -> Side {
-        match self {
-            Side::Left => Side::Right,
-            Side::Right => Side::Left,
-        }
-    }
 }
 
 /// Hip joint in the pelvis.

@@ -14,7 +14,7 @@ const WAIST_HEIGHT: f64 = 0.115;
 /// Half the width and half the depth of the waist (m).
 const WAIST_HALF: DVec2 = DVec2::new(0.129, 0.099);
 /// Half the width of the cone for a metre of height below its tip.
-const FLARE: f64 = 0.62;
+const FLARE: f64 = 0.50;
 /// Of waistband and hem below the cone's tip (m).
 const WAIST_DEPTH: f64 = WAIST_HALF.x / FLARE;
 const HEM_DEPTH: f64 = WAIST_DEPTH + 0.52;

@@ -11,9 +11,9 @@ use super::parts::{ANKLE_HEIGHT, Side};
 struct Step {
     side: Side,
     frames: [f64; 2],
-    /// Of the figure along its way (m): first turning on the spot, then walking along x.
+    /// Of the figure along its way (m): first it turns on the spot, then it walks.
     along: f64,
-    /// Of the foot, from x, counter-clockwise (degrees).
+    /// Of the foot, from the way, counter-clockwise (degrees).
     heading_deg: f64,
 }
 
@@ -21,7 +21,10 @@ const fn step(side: Side, frames: [f64; 2], along: f64, heading_deg: f64) -> Ste
     Step { side, frames, along, heading_deg }
 }
 
-/// Which way the figure faces at first (degrees).
+/// Where the way leads, from x, counter-clockwise (degrees): past the key light of the pictures.
+const WAY_DEG: f64 = -75.0;
+
+/// Which way the figure faces at first, from its way (degrees).
 const FIRST_HEADING_DEG: f64 = 180.0;
 
 const STEPS: [Step; 12] = [
@@ -138,9 +141,10 @@ fn first(side: Side) -> Footing {
 }
 
 fn landing(step: &Step) -> Footing {
-    let heading = step.heading_deg.to_radians();
+    let way = WAY_DEG.to_radians();
+    let heading = way + step.heading_deg.to_radians();
     let right = facing(heading) * DVec3::X;
-    let position = DVec3::X * step.along + right * (HALF_TRACK * step.side.sign());
+    let position = facing(way) * DVec3::Y * step.along + right * (HALF_TRACK * step.side.sign());
     Footing { position, heading }
 }
 
