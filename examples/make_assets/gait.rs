@@ -91,7 +91,8 @@ impl Figure {
     /// Upper arm and forearm, which swing against the legs.
     fn arm(&self, side: Side) -> [Pose; 2] {
         let swing = ARM_SWING * stride(self.frame) * side.sign();
-        let turn = smoothed(self.frame, FOLLOW, |f| heading(f + 1.0) - heading(f - 1.0)).abs() / 2.0;
+        let turn =
+            smoothed(self.frame, FOLLOW, |f| heading(f + 1.0) - heading(f - 1.0)).abs() / 2.0;
         let out = ARM_OUT + ARM_OUT_BY_TURN * turn;
         let upper = Pose {
             scale: 1.0,

@@ -67,7 +67,7 @@ pub fn shoulder(side: Side) -> DVec3 {
 
 /// Where the chest joins the pelvis, and the head the chest.
 pub const WAIST: DVec3 = DVec3::new(0.0, 0.0, 0.17);
-pub const NECK: DVec3 = DVec3::new(0.0, -0.01, 0.335);
+pub const NECK: DVec3 = DVec3::new(0.0, -0.01, 0.328);
 pub const THIGH_LENGTH: f64 = 0.42;
 pub const SHIN_LENGTH: f64 = 0.41;
 pub const UPPER_ARM_LENGTH: f64 = 0.28;
@@ -88,9 +88,9 @@ pub const MESHES: [Loft; 8] = [
             ring(-0.04, 0.164, 0.115, -0.012),
             ring(0.04, 0.146, 0.105, -0.006),
             ring(0.12, 0.118, 0.088, 0.0),
-            ring(0.20, 0.108, 0.080, 0.0),
+            ring(0.20, 0.096, 0.070, 0.0),
         ],
-        caps: [0.12, 0.06],
+        caps: [0.12, 0.07],
         segments: [28, 18],
     },
     Loft {
@@ -111,15 +111,15 @@ pub const MESHES: [Loft; 8] = [
         name: "head",
         axis: Axis::Up,
         rings: &[
-            ring(-0.05, 0.056, 0.056, 0.0),
-            ring(0.02, 0.044, 0.048, 0.002),
-            ring(0.07, 0.046, 0.056, 0.008),
-            ring(0.12, 0.064, 0.080, 0.018),
-            ring(0.18, 0.076, 0.096, 0.014),
-            ring(0.24, 0.076, 0.098, 0.010),
-            ring(0.305, 0.062, 0.080, 0.004),
+            ring(-0.05, 0.056, 0.054, 0.0),
+            ring(0.02, 0.043, 0.047, 0.002),
+            ring(0.06, 0.047, 0.058, 0.010),
+            ring(0.10, 0.064, 0.080, 0.018),
+            ring(0.16, 0.077, 0.098, 0.013),
+            ring(0.22, 0.081, 0.103, 0.006),
+            ring(0.285, 0.078, 0.098, 0.0),
         ],
-        caps: [0.03, 0.10],
+        caps: [0.03, 0.115],
         segments: [24, 20],
     },
     Loft {

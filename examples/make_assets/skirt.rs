@@ -10,7 +10,7 @@ const GORE_COUNT: usize = 6;
 const STRIPS: usize = 6;
 const ROWS: usize = 3;
 /// Height of the waistband in the pelvis (m).
-const WAIST_HEIGHT: f64 = 0.115;
+const WAIST_HEIGHT: f64 = 0.12;
 /// Half the width and half the depth of the waist (m).
 const WAIST_HALF: DVec2 = DVec2::new(0.129, 0.099);
 /// Half the width of the cone for a metre of height below its tip.

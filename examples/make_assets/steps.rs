@@ -28,18 +28,18 @@ const WAY_DEG: f64 = -75.0;
 const FIRST_HEADING_DEG: f64 = 180.0;
 
 const STEPS: [Step; 12] = [
-    step(Side::Left, [10.0, 17.0], 0.0, 240.0),
-    step(Side::Right, [15.0, 22.0], 0.0, 285.0),
-    step(Side::Left, [20.0, 27.0], 0.0, 330.0),
-    step(Side::Right, [25.0, 32.0], 0.0, 358.0),
-    step(Side::Left, [30.0, 37.0], 0.0, 362.0),
-    step(Side::Right, [36.0, 48.0], 0.32, 360.0),
-    step(Side::Left, [47.0, 59.0], 0.84, 360.0),
-    step(Side::Right, [58.0, 70.0], 1.36, 360.0),
-    step(Side::Left, [69.0, 81.0], 1.88, 360.0),
-    step(Side::Right, [80.0, 92.0], 2.40, 360.0),
-    step(Side::Left, [91.0, 103.0], 2.92, 360.0),
-    step(Side::Right, [102.0, 114.0], 3.44, 360.0),
+    step(Side::Left, [10.0, 16.0], 0.00, 240.0),
+    step(Side::Right, [16.0, 22.0], 0.00, 285.0),
+    step(Side::Left, [22.0, 28.0], 0.00, 330.0),
+    step(Side::Right, [28.0, 34.0], 0.00, 358.0),
+    step(Side::Left, [34.0, 39.0], 0.00, 362.0),
+    step(Side::Right, [39.0, 50.0], 0.30, 360.0),
+    step(Side::Left, [50.0, 61.0], 0.78, 360.0),
+    step(Side::Right, [61.0, 72.0], 1.26, 360.0),
+    step(Side::Left, [72.0, 83.0], 1.74, 360.0),
+    step(Side::Right, [83.0, 94.0], 2.22, 360.0),
+    step(Side::Left, [94.0, 105.0], 2.70, 360.0),
+    step(Side::Right, [105.0, 116.0], 3.18, 360.0),
 ];
 
 /// Of a foot from the line the figure walks on (m).
@@ -109,7 +109,8 @@ fn tilt(side: Side, frame: f64) -> f64 {
         let roll = (from.position.distance(to.position) / FULL_STEP).clamp(0.15, 1.0);
         let [start, end] = step.frames;
         let share = ((frame - start) / (end - start)).clamp(0.0, 1.0);
-        let heel = smooth((frame - start + HEEL_FRAMES) / HEEL_FRAMES) * (1.0 - smooth(share / 0.7));
+        let heel =
+            smooth((frame - start + HEEL_FRAMES) / HEEL_FRAMES) * (1.0 - smooth(share / 0.7));
         let toes = smooth((share - 0.5) / 0.5) * (1.0 - smooth((frame - end) / TOE_FRAMES));
         tilt += roll * (TOE_RISE * toes - HEEL_RISE * heel);
     }
