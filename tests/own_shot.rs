@@ -102,7 +102,8 @@ fn the_figure_moves_smoothly_and_walks_on_the_ground() {
         (0..=last_frame(&scene)).map(|frame| figure_points(&scene, frame)).collect();
     for (frame, three) in frames.windows(3).enumerate() {
         for ((a, b), c) in three[0].iter().zip(&three[1]).zip(&three[2]) {
-            assert!(a.distance(*b) < MOVE_MAX, "a point leaps {} m at {frame}", a.distance(*b));
+            let step = a.distance(*b);
+            assert!(step < MOVE_MAX, "a point leaps {step} m at {frame}");
             let change = (*a - 2.0 * *b + *c).length();
             assert!(change < CHANGE_MAX, "a point jerks by {change} m at {frame}");
         }

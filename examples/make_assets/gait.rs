@@ -34,8 +34,8 @@ const CHEST_AHEAD: f64 = 1.5;
 const HEAD_AHEAD: f64 = 5.0;
 /// Arms: out from the body at rest and more in a turn, for each rad/frame of it (rad); swing for
 /// feet a metre apart; bend of the elbow at rest, and more as the arm swings forward.
-const ARM_OUT: f64 = 0.44;
-const ARM_OUT_BY_TURN: f64 = 3.2;
+const ARM_OUT: f64 = 0.50;
+const ARM_OUT_BY_TURN: f64 = 2.8;
 const ARM_SWING: f64 = 0.85;
 const ELBOW: f64 = 0.38;
 const ELBOW_BY_SWING: f64 = 0.6;

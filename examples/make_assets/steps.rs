@@ -28,18 +28,18 @@ const WAY_DEG: f64 = -75.0;
 const FIRST_HEADING_DEG: f64 = 180.0;
 
 const STEPS: [Step; 12] = [
-    step(Side::Left, [10.0, 16.0], 0.00, 240.0),
-    step(Side::Right, [16.0, 22.0], 0.00, 285.0),
-    step(Side::Left, [22.0, 28.0], 0.00, 330.0),
-    step(Side::Right, [28.0, 34.0], 0.00, 358.0),
-    step(Side::Left, [34.0, 39.0], 0.00, 362.0),
-    step(Side::Right, [39.0, 50.0], 0.30, 360.0),
-    step(Side::Left, [50.0, 61.0], 0.78, 360.0),
-    step(Side::Right, [61.0, 72.0], 1.26, 360.0),
-    step(Side::Left, [72.0, 83.0], 1.74, 360.0),
-    step(Side::Right, [83.0, 94.0], 2.22, 360.0),
-    step(Side::Left, [94.0, 105.0], 2.70, 360.0),
-    step(Side::Right, [105.0, 116.0], 3.18, 360.0),
+    step(Side::Left, [10.0, 17.0], 0.00, 235.0),
+    step(Side::Right, [17.0, 24.0], 0.00, 285.0),
+    step(Side::Left, [24.0, 30.0], 0.00, 330.0),
+    step(Side::Right, [30.0, 35.0], 0.00, 345.0),
+    step(Side::Left, [35.0, 41.0], 0.00, 362.0),
+    step(Side::Right, [42.0, 53.0], 0.30, 360.0),
+    step(Side::Left, [53.0, 64.0], 0.80, 360.0),
+    step(Side::Right, [64.0, 75.0], 1.30, 360.0),
+    step(Side::Left, [75.0, 86.0], 1.80, 360.0),
+    step(Side::Right, [86.0, 97.0], 2.30, 360.0),
+    step(Side::Left, [97.0, 108.0], 2.80, 360.0),
+    step(Side::Right, [108.0, 119.0], 3.30, 360.0),
 ];
 
 /// Of a foot from the line the figure walks on (m).
@@ -48,11 +48,13 @@ const HALF_TRACK: f64 = 0.075;
 const LIFT: f64 = 0.045;
 /// What a foot turns over, behind and before the ankle (m).
 const HEEL: f64 = -0.05;
-const BALL: f64 = 0.125;
+const TOES: f64 = 0.172;
+/// Within this tilt the foot turns over a point between them (rad), so that it turns smoothly.
+const FLAT: f64 = 0.08;
 /// A step of this length rolls the foot fully (m).
 const FULL_STEP: f64 = 0.9;
 /// How far the heel rises before the foot leaves the ground, and the toes before it is set (rad).
-const HEEL_RISE: f64 = 0.75;
+const HEEL_RISE: f64 = 0.65;
 const TOE_RISE: f64 = 0.30;
 /// How long before the step the heel rises, and after it the toes sink (frames).
 const HEEL_FRAMES: f64 = 7.0;
@@ -93,7 +95,8 @@ pub fn foot(side: Side, frame: f64) -> Pose {
     let ground = footing(side, frame);
     let (_, _, share) = around(side, frame);
     let tilt = tilt(side, frame);
-    let pivot = DVec3::new(0.0, if tilt < 0.0 { BALL } else { HEEL }, -ANKLE_HEIGHT);
+    let on_heel = smooth(0.5 + 0.5 * tilt / FLAT);
+    let pivot = DVec3::new(0.0, TOES + on_heel * (HEEL - TOES), -ANKLE_HEIGHT);
     let heading = facing(ground.heading);
     let rotation = heading * DQuat::from_rotation_x(tilt);
     let lift = DVec3::Z * (ANKLE_HEIGHT + LIFT * (PI * share).sin().powi(2));
