@@ -82,7 +82,9 @@ impl FrameRange {
 
 fn parse_frames(text: &str) -> Result<FrameRange, String> {
     let number = |part: &str| {
-        part.trim().parse::<u32>().map_err(|_| format!("{part:?} is not a frame number (0 or more)"))
+        part.trim()
+            .parse::<u32>()
+            .map_err(|_| format!("{part:?} is not a frame number (0 or more)"))
     };
     let (first, last) = match text.split_once("..") {
         Some((first, last)) => (number(first)?, number(last)?),

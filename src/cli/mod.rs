@@ -2,10 +2,15 @@
 
 mod args;
 mod failure;
+mod footage;
 mod interrupt;
 mod log;
+mod output;
+mod pictures;
 mod progress;
+mod render;
 mod schema;
+mod sheet;
 mod shot;
 mod simulate;
 
@@ -27,6 +32,10 @@ struct Cli {
 enum Command {
     /// Simulate a shot into a run folder
     Simulate(simulate::SimulateArgs),
+    /// Draw the frames of a shot or a run as PNG pictures
+    Render(render::RenderArgs),
+    /// Draw a contact sheet of a shot or a run
+    Sheet(sheet::SheetArgs),
     /// Print the JSON Schema of the shot file
     Schema,
 }
@@ -38,6 +47,8 @@ pub fn main() -> ExitCode {
     cli.log.install();
     let result = match cli.command {
         Command::Simulate(args) => simulate::run(&args, cli.log),
+        Command::Render(args) => render::run(&args, cli.log),
+        Command::Sheet(args) => sheet::run(&args, cli.log),
         Command::Schema => {
             println!("{}", schema::run());
             Ok(())

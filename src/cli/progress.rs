@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::log::{LogArgs, LogFormat, TERMINAL};
+use crate::sim::Frame;
 
 /// How progress is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,8 +52,10 @@ impl Progress {
         Self { mode, total, done: 0, started: Instant::now(), bar }
     }
 
-    /// A frame is done: its number as shown, its faces, and the seconds it took.
-    pub fn frame(&mut self, number: i64, faces: usize, seconds: f64) {
+    /// A frame is done; `first_frame` is what the shot calls frame 0.
+    pub fn frame(&mut self, frame: &Frame, first_frame: i64) {
+        let number = i64::from(frame.number) + first_frame;
+        let (faces, seconds) = (frame.face_count(), frame.report.stages.total());
         self.done += 1;
         let left = time_left(self.started.elapsed(), self.done, self.total);
         match self.mode {
@@ -108,6 +111,7 @@ fn in_words(time: Duration) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::FrameReport;
 
     #[test]
     fn the_time_left_is_the_mean_frame_times_the_frames_to_come() {
@@ -138,8 +142,15 @@ mod tests {
             [ProgressMode::Bar, ProgressMode::Lines, ProgressMode::Log, ProgressMode::Silent]
         {
             let mut progress = Progress::new(2, mode);
-            progress.frame(1001, 250, 0.5);
-            progress.frame(1002, 260, 0.5);
+            let frame = Frame {
+                number: 0,
+                time: 0.0,
+                garments: Vec::new(),
+                obstacle_poses: Vec::new(),
+                report: FrameReport::default(),
+            };
+            progress.frame(&frame, 1001);
+            progress.frame(&frame, 1001);
             assert_eq!(progress.done, 2);
             progress.finish();
         }

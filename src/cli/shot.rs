@@ -1,6 +1,5 @@
 //! From the arguments to a shot that can be simulated.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Context, Result};
@@ -62,7 +61,11 @@ impl Shot {
             if let Some(signal) = interrupt.requested() {
                 return Err(Failure::Interrupted(signal).into());
             }
-            visit(simulation.advance().map_err(Failure::from)?)?;
+            let frame = simulation.advance().map_err(Failure::from)?;
+            for warning in &frame.report.warnings {
+                tracing::warn!("frame {}: {warning}", frame.number);
+            }
+            visit(frame)?;
         }
         Ok(())
     }
@@ -120,9 +123,4 @@ pub fn set_threads(threads: Option<u16>) -> Result<()> {
         .num_threads(usize::from(threads))
         .build_global()
         .context("cannot start the threads")
-}
-
-/// True if the path is a folder that `simulate` wrote.
-pub fn is_run(path: &Path) -> bool {
-    crate::run::RunReader::is_run(path)
 }

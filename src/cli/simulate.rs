@@ -47,14 +47,10 @@ pub fn run(args: &SimulateArgs, log: LogArgs) -> Result<()> {
     let frame_count = u64::from(shot.frames.last) + 1;
     let mut progress = Progress::new(frame_count, ProgressMode::detect(log));
     let result = shot.simulate(&interrupt, |frame| {
-        for warning in &frame.report.warnings {
-            tracing::warn!("frame {}: {warning}", frame.number);
-        }
         if shot.frames.contains(frame.number) {
             writer.write(&frame).map_err(Failure::from)?;
         }
-        let shown = i64::from(frame.number) + shot.info.first_frame;
-        progress.frame(shown, frame.face_count(), frame.report.stages.total());
+        progress.frame(&frame, shot.info.first_frame);
         Ok(())
     });
     progress.finish();

@@ -1,6 +1,7 @@
 //! Which points of cloth and obstacles are about to touch in a step.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::face_tree::FaceTree;
 use super::obstacles::ObstacleMotion;
@@ -24,17 +25,25 @@ pub struct Cloth<'a> {
 /// Contacts which hold already, or would be broken within the step if everything went on as it
 /// goes: nodes against obstacles, and corners of obstacles against faces.
 ///
-/// Sorted by obstacle and node, so that the result does not depend on how it was found.
+/// In order of nodes, then of corners, however many threads look for them.
 pub fn contacts(
     cloth: Cloth<'_>,
     tree: &FaceTree,
     obstacles: &[ObstacleMotion],
     settings: &Contact,
 ) -> Vec<ContactPoint> {
-    let mut found = Vec::new();
+    // Collected in the order of nodes and corners, whoever finds them first.
+    let of_node =
+        |node: usize| obstacles.iter().filter_map(move |o| node_contact(cloth, node, o, settings));
+    let mut found: Vec<ContactPoint> =
+        (0..cloth.position.len()).into_par_iter().flat_map_iter(of_node).collect();
     for obstacle in obstacles {
-        node_contacts(cloth, obstacle, settings, &mut found);
-        corner_contacts(cloth, tree, obstacle, settings, &mut found);
+        let of_corner = |corner| corner_contact(cloth, tree, obstacle, corner, settings);
+        found.par_extend(
+            (0..obstacle.shape.positions().len())
+                .into_par_iter()
+                .filter_map(|index| of_corner(obstacle_corner(obstacle, At::Start, index))),
+        );
     }
     found
 }
@@ -42,72 +51,63 @@ pub fn contacts(
 /// Depth below the surface, in contact thicknesses, at which cloth is still found and led out.
 const DEPTH_IN_THICKNESSES: f64 = 4.0;
 
-fn node_contacts(
+fn node_contact(
     cloth: Cloth<'_>,
+    node: usize,
     obstacle: &ObstacleMotion,
     settings: &Contact,
-    found: &mut Vec<ContactPoint>,
-) {
+) -> Option<ContactPoint> {
+    let (x, v) = (cloth.position[node], cloth.velocity[node]);
     let reach_min = DEPTH_IN_THICKNESSES * settings.thickness;
+    let travel = v.length() * obstacle.duration;
     let swept = obstacle.swept_bounds();
-    for (node, (&x, &v)) in cloth.position.iter().zip(cloth.velocity).enumerate() {
-        let travel = v.length() * obstacle.duration;
-        if x.distance(x.clamp(swept.mins, swept.maxs)) > reach_min.max(settings.thickness + travel)
-        {
-            continue;
-        }
-        let approach = (v - obstacle.velocity_at(x)).length() * obstacle.duration;
-        let reach = reach_min.max(settings.thickness + approach);
-        let Some(nearest) = obstacle.nearest_at_start(x, reach) else { continue };
-        let contact = ContactPoint {
-            nodes: ContactPoint::weighted(&[(node, 1.0)]),
-            normal: nearest.normal,
-            gap: nearest.signed_distance - settings.thickness,
-            surface_velocity: obstacle.velocity_at(nearest.point),
-            stiffness: settings.stiffness * cloth.area[node],
-            friction: settings.friction_obstacle,
-        };
-        keep_if_active(contact, v, obstacle.duration, found);
+    let bounds_reach = reach_min.max(settings.thickness + travel);
+    if x.distance_squared(x.clamp(swept.mins, swept.maxs)) > bounds_reach * bounds_reach {
+        return None;
     }
+    let approach = (v - obstacle.velocity_at(x)).length() * obstacle.duration;
+    let nearest = obstacle.nearest_at_start(x, reach_min.max(settings.thickness + approach))?;
+    let contact = ContactPoint {
+        nodes: ContactPoint::weighted(&[(node, 1.0)]),
+        normal: nearest.normal,
+        gap: nearest.signed_distance - settings.thickness,
+        surface_velocity: obstacle.velocity_at(nearest.point),
+        stiffness: settings.stiffness * cloth.area[node],
+        friction: settings.friction_obstacle,
+    };
+    is_active(&contact, v, obstacle.duration).then_some(contact)
 }
 
-fn corner_contacts(
+fn corner_contact(
     cloth: Cloth<'_>,
     tree: &FaceTree,
     obstacle: &ObstacleMotion,
+    corner: ObstacleCorner,
     settings: &Contact,
-    found: &mut Vec<ContactPoint>,
-) {
-    let scale = obstacle.start.scale;
-    let areas = obstacle.shape.vertex_areas();
-    for corner in obstacle_corners(obstacle, At::Start) {
-        let Some(touch) = tree.touch(cloth, corner.position, corner.normal, settings.thickness)
-        else {
-            continue;
-        };
-        let velocity = (0..3).map(|k| cloth.velocity[touch.nodes[k]] * touch.weights[k]).sum();
-        let contact = ContactPoint {
-            nodes: ContactPoint::weighted(&[0, 1, 2].map(|k| (touch.nodes[k], touch.weights[k]))),
-            normal: touch.normal,
-            gap: touch.signed_distance - settings.thickness,
-            surface_velocity: obstacle.velocity_at(corner.position),
-            stiffness: settings.stiffness * areas[corner.index] * scale * scale,
-            friction: settings.friction_obstacle,
-        };
-        keep_if_active(contact, velocity, obstacle.duration, found);
+) -> Option<ContactPoint> {
+    let around = tree.bounds();
+    let aside = corner.position.clamp(around.mins, around.maxs);
+    if corner.position.distance_squared(aside) > settings.thickness * settings.thickness {
+        return None;
     }
+    let touch = tree.touch(cloth, corner.position, corner.normal, settings.thickness)?;
+    let velocity = (0..3).map(|k| cloth.velocity[touch.nodes[k]] * touch.weights[k]).sum();
+    let scale = obstacle.start.scale;
+    let contact = ContactPoint {
+        nodes: ContactPoint::weighted(&[0, 1, 2].map(|k| (touch.nodes[k], touch.weights[k]))),
+        normal: touch.normal,
+        gap: touch.signed_distance - settings.thickness,
+        surface_velocity: obstacle.velocity_at(corner.position),
+        stiffness: settings.stiffness * obstacle.shape.vertex_areas()[corner.index] * scale * scale,
+        friction: settings.friction_obstacle,
+    };
+    is_active(&contact, velocity, obstacle.duration).then_some(contact)
 }
 
-fn keep_if_active(
-    contact: ContactPoint,
-    velocity: DVec3,
-    duration: f64,
-    found: &mut Vec<ContactPoint>,
-) {
+/// Whether the contact holds, or would be broken if both sides went on as they go.
+fn is_active(contact: &ContactPoint, velocity: DVec3, duration: f64) -> bool {
     let closing = contact.normal.dot(velocity - contact.surface_velocity) * duration;
-    if contact.gap < 0.0 || contact.gap + closing < 0.0 {
-        found.push(contact);
-    }
+    contact.gap < 0.0 || contact.gap + closing < 0.0
 }
 
 /// A vertex of an obstacle's surface, in the world.
@@ -126,18 +126,16 @@ pub(super) enum At {
     End,
 }
 
-pub(super) fn obstacle_corners(
-    obstacle: &ObstacleMotion,
-    at: At,
-) -> impl Iterator<Item = ObstacleCorner> + '_ {
+pub(super) fn obstacle_corner(obstacle: &ObstacleMotion, at: At, index: usize) -> ObstacleCorner {
     let pose = match at {
         At::Start => obstacle.start,
         At::End => obstacle.end,
     };
-    let shape = &obstacle.shape;
-    shape.positions().iter().zip(shape.vertex_normals()).enumerate().map(move |(index, (p, n))| {
-        ObstacleCorner { index, position: pose.transform_point(*p), normal: pose.rotation * *n }
-    })
+    ObstacleCorner {
+        index,
+        position: pose.transform_point(obstacle.shape.positions()[index]),
+        normal: pose.rotation * obstacle.shape.vertex_normals()[index],
+    }
 }
 
 /// Per node the nearest obstacle plane within a range (m), where the obstacles are at the end of
@@ -155,5 +153,5 @@ pub fn nearest_planes(
         }
         best.map(|b| Plane { point: b.point, normal: b.normal })
     };
-    positions.iter().map(|&x| nearest(x)).collect()
+    positions.par_iter().map(|&x| nearest(x)).collect()
 }

@@ -6,9 +6,9 @@
 
 use glam::DVec3;
 
-use super::face_tree::FaceTree;
+use super::face_tree::{FaceTree, Touch};
 use super::obstacles::ObstacleMotion;
-use super::proximity::{At, Cloth, obstacle_corners};
+use super::proximity::{At, Cloth, obstacle_corner};
 use crate::scene::Contact;
 
 /// What resolution did.
@@ -108,38 +108,48 @@ fn lift_faces(
     let floor = FLOOR_IN_THICKNESSES * settings.thickness;
     let around = tree.bounds();
     let mut count = 0;
-    for corner in obstacle_corners(obstacle, At::End) {
+    for index in 0..obstacle.shape.positions().len() {
+        let corner = obstacle_corner(obstacle, At::End, index);
         let p = corner.position;
         if p.distance(p.clamp(around.mins, around.maxs)) > settings.thickness {
             continue;
         }
-        let seen = Cloth {
-            position: cloth.position,
-            velocity: cloth.velocity,
-            area: cloth.area,
-            faces: cloth.faces,
-        };
-        let Some(touch) = tree.touch(seen, p, corner.normal, settings.thickness) else { continue };
-        let lift = floor - touch.signed_distance;
-        if touch.signed_distance >= 0.0 || lift <= 0.0 {
+        let Some(touch) = tree.touch(cloth.seen(), p, corner.normal, settings.thickness) else {
             continue;
+        };
+        if touch.signed_distance < 0.0 {
+            lift_face(cloth, &touch, floor - touch.signed_distance, obstacle.velocity_at(p));
+            count += 1;
         }
-        let surface_velocity = obstacle.velocity_at(p);
-        let spread: f64 = touch.weights.iter().map(|w| w * w).sum();
-        let closing: f64 = (0..3)
-            .map(|k| {
-                touch.weights[k]
-                    * touch.normal.dot(cloth.velocity[touch.nodes[k]] - surface_velocity)
-            })
-            .sum();
-        for k in 0..3 {
-            let share = touch.weights[k] / spread;
-            cloth.position[touch.nodes[k]] += touch.normal * (lift * share);
-            cloth.velocity[touch.nodes[k]] -= touch.normal * (closing.min(0.0) * share);
-        }
-        count += 1;
     }
     count
+}
+
+/// Moves a point of a face along the normal by `lift` (m) and ends its approach, by the least
+/// change of its nodes. Barycentric weights add up to 1, so their squares to at least 1/3.
+fn lift_face(cloth: &mut MovedCloth<'_>, touch: &Touch, lift: f64, surface_velocity: DVec3) {
+    let spread: f64 = touch.weights.iter().map(|w| w * w).sum();
+    let nodes = touch.nodes.iter().zip(&touch.weights);
+    let closing: f64 = nodes
+        .clone()
+        .map(|(&n, w)| w * touch.normal.dot(cloth.velocity[n] - surface_velocity))
+        .sum();
+    for (&node, weight) in nodes {
+        let share = weight / spread;
+        cloth.position[node] += touch.normal * (lift * share);
+        cloth.velocity[node] -= touch.normal * (closing.min(0.0) * share);
+    }
+}
+
+impl MovedCloth<'_> {
+    fn seen(&self) -> Cloth<'_> {
+        Cloth {
+            position: self.position,
+            velocity: self.velocity,
+            area: self.area,
+            faces: self.faces,
+        }
+    }
 }
 
 /// The relative velocity after an inelastic impact with Coulomb friction

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::bending::{Hinge, dihedral};
-use super::contact::ContactPoint;
+use super::contact::{ContactPoint, ContactResponse};
 use super::damping::Lead;
 use super::handles::HandleSpring;
 use super::matrix::BlockMatrix;
@@ -129,13 +129,11 @@ impl System {
     /// Returns how many contacts act.
     fn add_contacts(&mut self, state: &StepState, forces: &StepForces<'_>, dt: f64) -> usize {
         let mut active = 0;
-        for contact in forces.contacts {
-            let velocity = contact.weighted_sum(&state.velocity);
-            let mass = contact.effective_mass(&self.masses);
-            // A contact between points of cloth falls as a whole.
-            let weight_sum: f64 = contact.weights().map(|(_, weight)| weight).sum();
-            let gravity = forces.gravity * weight_sum;
-            let Some(response) = contact.response(velocity, gravity, mass, dt) else { continue };
+        for (index, contact) in forces.contacts.iter().enumerate() {
+            let Some(mut response) = self.response(contact, state, forces, dt) else { continue };
+            if let Some(Some(friction)) = self.breakaway.get(index) {
+                response = response.with_friction(contact.normal, *friction);
+            }
             active += 1;
             for (k, (node, weight)) in contact.weights().enumerate() {
                 self.right_side[node] += response.force * (weight * dt);
@@ -148,6 +146,21 @@ impl System {
             }
         }
         active
+    }
+
+    /// A contact's response at the start of a step; `None` if it will be open.
+    pub(super) fn response(
+        &self,
+        contact: &ContactPoint,
+        state: &StepState,
+        forces: &StepForces<'_>,
+        dt: f64,
+    ) -> Option<ContactResponse> {
+        let velocity = contact.weighted_sum(&state.velocity);
+        let mass = contact.effective_mass(&self.masses);
+        // A contact between points of cloth falls as a whole.
+        let weight_sum: f64 = contact.weights().map(|(_, weight)| weight).sum();
+        contact.response(velocity, forces.gravity * weight_sum, mass, dt)
     }
 }
 

@@ -96,6 +96,17 @@ impl ContactPoint {
     }
 }
 
+impl ContactResponse {
+    /// The same normal response with a friction that is known (N), across the normal.
+    pub fn with_friction(self, normal: DVec3, friction: DVec3) -> Self {
+        let projector = outer(normal, normal);
+        Self {
+            force: normal * self.force.dot(normal) + friction,
+            tangent: projector * (normal.dot(self.tangent * normal)),
+        }
+    }
+}
+
 /// The normal force that friction may count on (N):
 /// min( k max(0, -(gap + h s)), k max(0, -gap) + m max(0, -s) / h ), with s the separation speed.
 ///

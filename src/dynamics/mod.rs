@@ -8,6 +8,7 @@
 
 mod assembly;
 pub mod bending;
+mod breakaway;
 pub mod contact;
 pub mod damping;
 pub mod handles;

@@ -127,10 +127,11 @@ impl System {
         assert_eq!(state.position.len(), self.node_count(), "positions are those of the system");
         assert_eq!(state.velocity.len(), self.node_count(), "velocities are those of the system");
         state.check_finite()?;
-        let outcome = self.assemble(state, forces, dt);
-        finite("force", &self.right_side)?;
-        self.solver.factorize(&self.matrix)?;
-        self.solver.solve(&mut self.right_side);
+        self.forget_breakaway();
+        let mut outcome = self.solve_step(state, forces, dt)?;
+        if self.note_breakaway(state, forces, dt) {
+            outcome = self.solve_step(state, forces, dt)?;
+        }
         // Checked before anything is written.
         finite("velocity after the step", &self.right_side)?;
         for ((x, v), dv) in state.position.iter_mut().zip(&mut state.velocity).zip(&self.right_side)
@@ -138,6 +139,20 @@ impl System {
             *v += dv;
             *x += *v * dt;
         }
+        Ok(outcome)
+    }
+
+    /// Leaves the velocity changes of one linear solution in the right side (m/s).
+    fn solve_step(
+        &mut self,
+        state: &StepState,
+        forces: &StepForces<'_>,
+        dt: f64,
+    ) -> Result<StepOutcome, StepError> {
+        let outcome = self.assemble(state, forces, dt);
+        finite("force", &self.right_side)?;
+        self.solver.factorize(&self.matrix)?;
+        self.solver.solve(&mut self.right_side);
         Ok(outcome)
     }
 }

@@ -30,6 +30,9 @@ pub struct System {
     pub(super) matrix: BlockMatrix,
     pub(super) right_side: Vec<DVec3>,
     pub(super) solver: LinearSolver,
+    /// Per contact of the step in work, the friction of one that broke away (N); empty while all
+    /// are taken to stick or slip as they did before.
+    pub(super) breakaway: Vec<Option<DVec3>>,
 }
 
 /// A garment's share of the arrays.
@@ -84,6 +87,7 @@ impl System {
             matrix: BlockMatrix::zero(empty),
             right_side: Vec::new(),
             solver: LinearSolver::default(),
+            breakaway: Vec::new(),
         };
         for (mesh, fabric) in meshes.iter().zip(fabrics) {
             system.append(mesh, fabric);

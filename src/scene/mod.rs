@@ -20,6 +20,7 @@ pub use fabric::{Fabric, MeasuredFabric, StretchStiffness};
 pub use load::{LoadOptions, LoadedShot, load, shot_schema};
 pub use motion::{Motion, MotionError, MotionKey};
 pub use pose::{Pose, PoseVelocity};
+pub use resolve::{load_camera, recorded_viewers};
 pub use settings::{Air, Contact, SizingSettings, StageSwitches, ViewRule, ViewSettings};
 pub use source::{EmbeddedFiles, FileRead, FileSource, FileSystem};
 

@@ -88,6 +88,14 @@ impl CameraPath {
         }
     }
 
+    /// The frames at which a key stands; baked paths have none.
+    pub fn key_frames(&self) -> Vec<f64> {
+        match &self.track {
+            Track::Keys(keys) => keys.iter().map(|k| k.frame).collect(),
+            Track::Matrices { .. } => Vec::new(),
+        }
+    }
+
     /// World positions of the eye at every frame of a range (m), a list for each run between cuts.
     pub fn eyes(&self, frames: RangeInclusive<u32>) -> Vec<Vec<DVec3>> {
         let cuts = self.cuts();

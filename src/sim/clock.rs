@@ -16,7 +16,6 @@ pub enum Stage {
     Sizing,
     View,
     Remesh,
-    Untangle,
 }
 
 /// Adds up wall seconds by stage; what no stage claims is `other`.
@@ -66,7 +65,6 @@ impl StageClock {
             Stage::Sizing => &mut s.sizing,
             Stage::View => &mut s.view,
             Stage::Remesh => &mut s.remesh,
-            Stage::Untangle => &mut s.untangle,
         }
     }
 }

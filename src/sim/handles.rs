@@ -21,7 +21,9 @@ impl Anchors {
             let mesh = &scene.garments[handle.garment].mesh;
             let nodes = nodes_by_input(mesh);
             let place = |n: &u32| {
-                (handle.start_time <= 0.0).then(|| nodes.get(n).map(|&n| mesh.position[n])).flatten()
+                (handle.start_time <= 0.0)
+                    .then(|| nodes.get(n).map(|&n| mesh.position[n]))
+                    .flatten()
             };
             handle.nodes.iter().map(place).collect()
         };

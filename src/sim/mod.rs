@@ -172,3 +172,6 @@ fn global_faces(garments: &[Mesh]) -> Vec<[u32; 3]> {
 
 /// One value per face, for all faces of a mesh.
 type PerFace<T> = IdVec<FaceId, T>;
+
+#[cfg(test)]
+mod tests;

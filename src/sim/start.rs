@@ -59,7 +59,11 @@ impl Simulation {
     }
 
     /// Some steps that each end at rest; true if the last one moved next to nothing.
-    fn relax(&mut self, clock: &mut StageClock, report: &mut FrameReport) -> Result<bool, SimError> {
+    fn relax(
+        &mut self,
+        clock: &mut StageClock,
+        report: &mut FrameReport,
+    ) -> Result<bool, SimError> {
         if !self.scene.stages.dynamics {
             return Ok(true);
         }

@@ -13,7 +13,9 @@ use crate::scene::Air;
 /// Why a simulation cannot go on.
 #[derive(Debug, Error)]
 pub enum SimError {
-    #[error("frame {frame}: the step at {time} s failed in {HALVINGS_MAX} halvings, down to {step_time:e} s: {cause}")]
+    #[error(
+        "frame {frame}: the step at {time} s failed in {HALVINGS_MAX} halvings, down to {step_time:e} s: {cause}"
+    )]
     Step { frame: u32, time: f64, step_time: f64, cause: StepError },
 }
 
@@ -54,7 +56,12 @@ impl Simulation {
                     done += part;
                 }
                 Err(cause) if halvings == HALVINGS_MAX => {
-                    return Err(SimError::Step { frame: self.frame + 1, time: start, step_time, cause });
+                    return Err(SimError::Step {
+                        frame: self.frame + 1,
+                        time: start,
+                        step_time,
+                        cause,
+                    });
                 }
                 Err(cause) => {
                     halvings += 1;
@@ -91,14 +98,11 @@ impl Simulation {
         };
         let before = self.cloth.state.clone();
         if scene.stages.dynamics {
-            let forces = StepForces {
-                gravity,
-                air,
-                handles: &handles,
-                contacts: &contacts,
-            };
+            let forces = StepForces { gravity, air, handles: &handles, contacts: &contacts };
             let cloth = &mut self.cloth;
-            clock.time(Stage::Dynamics, || cloth.system.step(&mut cloth.state, &forces, step_time))?;
+            clock.time(Stage::Dynamics, || {
+                cloth.system.step(&mut cloth.state, &forces, step_time)
+            })?;
         }
         clock.time(Stage::Collision, || self.resolve(&before, &obstacles, report));
         Ok(())
@@ -115,7 +119,12 @@ impl Simulation {
         contacts(seen, &cloth.tree, obstacles, &self.scene.contact)
     }
 
-    fn resolve(&mut self, before: &StepState, obstacles: &[ObstacleMotion], report: &mut FrameReport) {
+    fn resolve(
+        &mut self,
+        before: &StepState,
+        obstacles: &[ObstacleMotion],
+        report: &mut FrameReport,
+    ) {
         if obstacles.is_empty() || !self.scene.stages.collision {
             return;
         }

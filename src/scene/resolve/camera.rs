@@ -9,7 +9,7 @@ use super::{Resolver, stem};
 use crate::scene::document::{Node, Value};
 use crate::scene::error::{LoadError, Problem};
 use crate::scene::native::{CameraFile, KeyFile, SampleFile};
-use crate::scene::source::joined;
+use crate::scene::source::{FileSource, Reader, joined};
 use crate::shot::{CameraKey, CameraPath, Lens, Track};
 
 /// Frame rates that differ less than this (relative) are the same.
@@ -79,47 +79,83 @@ impl Resolver<'_> {
         default_name: &str,
         request: &CameraRequest,
     ) -> Result<(CameraFile, CameraPath), LoadError> {
-        let file: CameraFile = document.deserialize()?;
-        self.check_fps(document, &file, request)?;
-        check_image(document, &file)?;
-        let track = match (&file.keys, &file.matrices) {
-            (Some(keys), None) => keys_track(document, &file, keys)?,
-            (None, Some(samples)) => matrices_track(document, &file, samples)?,
-            (None, None) => {
-                let (thing, needed) = ("the camera".into(), "keys or matrices");
-                return Err(Problem::Missing { thing, needed }.at(document.place.clone()));
-            }
-            (Some(_), Some(_)) => {
-                let (thing, first, second) = ("the camera".into(), "keys", "matrices");
-                let problem = Problem::Exclusive { thing, first, second };
-                return Err(problem.at(document.place_of("matrices")));
-            }
-        };
-        let path = CameraPath {
-            name: file.name.clone().unwrap_or_else(|| default_name.to_owned()),
-            resolution: file.resolution,
-            pixel_aspect: file.pixel_aspect.unwrap_or(1.0),
-            near: file.near,
-            far: file.far,
-            track,
-        };
+        let (file, path) = camera_path(document, default_name)?;
+        if request.fps.is_none() {
+            check_fps(document, &file, self.file.fps)?;
+        }
         Ok((file, path))
     }
+}
 
-    fn check_fps(
-        &self,
-        document: &Node,
-        file: &CameraFile,
-        request: &CameraRequest,
-    ) -> Result<(), LoadError> {
-        let Some(camera) = file.fps else { return Ok(()) };
-        check(document, "fps", camera, Limit::Positive)?;
-        let scene = self.file.fps;
-        if request.fps.is_none() && (camera - scene).abs() > FPS_TOLERANCE * scene {
-            return Err(Problem::FrameRate { camera, scene }.at(document.place_of("fps")));
-        }
-        Ok(())
+/// A camera as written, and as a path.
+fn camera_path(document: &Node, default_name: &str) -> Result<(CameraFile, CameraPath), LoadError> {
+    let file: CameraFile = document.deserialize()?;
+    if let Some(fps) = file.fps {
+        check(document, "fps", fps, Limit::Positive)?;
     }
+    check_image(document, &file)?;
+    let track = match (&file.keys, &file.matrices) {
+        (Some(keys), None) => keys_track(document, &file, keys)?,
+        (None, Some(samples)) => matrices_track(document, &file, samples)?,
+        (None, None) => {
+            let (thing, needed) = ("the camera".into(), "keys or matrices");
+            return Err(Problem::Missing { thing, needed }.at(document.place.clone()));
+        }
+        (Some(_), Some(_)) => {
+            let (thing, first, second) = ("the camera".into(), "keys", "matrices");
+            let problem = Problem::Exclusive { thing, first, second };
+            return Err(problem.at(document.place_of("matrices")));
+        }
+    };
+    let path = CameraPath {
+        name: file.name.clone().unwrap_or_else(|| default_name.to_owned()),
+        resolution: file.resolution,
+        pixel_aspect: file.pixel_aspect.unwrap_or(1.0),
+        near: file.near,
+        far: file.far,
+        track,
+    };
+    Ok((file, path))
+}
+
+/// The camera's own frame rate, where it names one, must be the scene's.
+fn check_fps(document: &Node, file: &CameraFile, scene: f64) -> Result<(), LoadError> {
+    match file.fps {
+        Some(camera) if (camera - scene).abs() > FPS_TOLERANCE * scene => {
+            Err(Problem::FrameRate { camera, scene }.at(document.place_of("fps")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The cameras in the record of a run ([`LoadedShot::resolved`](crate::scene::LoadedShot)).
+///
+/// # Errors
+/// If the record has been damaged.
+pub fn recorded_viewers(record: &serde_json::Value) -> Result<Vec<CameraPath>, LoadError> {
+    let viewers = record["viewers"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let path = |viewer: &serde_json::Value| {
+        Ok(camera_path(&Node::parse("run.json", &viewer.to_string())?, "camera")?.1)
+    };
+    viewers.iter().map(path).collect()
+}
+
+/// A camera file for a scene of a frame rate (frames per second); `None` takes any.
+///
+/// # Errors
+/// If the file cannot be read, is no camera, or has another frame rate.
+pub fn load_camera(
+    path: &Path,
+    scene_fps: Option<f64>,
+    source: &dyn FileSource,
+) -> Result<CameraPath, LoadError> {
+    let name = path.to_string_lossy();
+    let document = Node::parse(&name, &Reader::new(source).text(path)?)?;
+    let (file, path) = camera_path(&document, stem(&name).trim_end_matches(".camera"))?;
+    if let Some(fps) = scene_fps {
+        check_fps(&document, &file, fps)?;
+    }
+    Ok(path)
 }
 
 /// The file an inline camera is written in.

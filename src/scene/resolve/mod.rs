@@ -20,6 +20,7 @@ use super::{Handle, Pose, Scene, Surface, ViewSettings};
 use limit::{Limit, check, out_of_range};
 
 pub(super) use camera::CameraRequest;
+pub use camera::{load_camera, recorded_viewers};
 
 /// Everything needed to turn a shot file into a scene.
 pub(super) struct Resolver<'a> {

@@ -1,0 +1,254 @@
+//! What `render` and `sheet` share: the two views of a frame.
+
+use anyhow::{Result, anyhow};
+use clap::{Args, ValueEnum};
+use glam::DVec3;
+use image::RgbaImage;
+
+use super::failure::Failure;
+use super::footage::Footage;
+use crate::render::{
+    AdapterChoice, Bounds, CameraTrail, ColourBy, Headless, LogRange, PictureOptions, ShotCamera,
+    WitnessSubject, size_of_width, witness_view,
+};
+use crate::shot::{CameraKey, CameraPath, Lens, Track, View};
+use crate::sim::Frame;
+
+/// How frames are drawn.
+#[derive(Args, Clone, Debug)]
+pub struct PictureArgs {
+    /// What the colour of the cloth shows
+    #[arg(long, value_enum, default_value_t = Colour::ViewFactor)]
+    pub colour: Colour,
+    /// The graphics adapter: software, hardware, or part of a name
+    #[arg(long, default_value = "software")]
+    pub adapter: AdapterChoice,
+    /// Place of the witness camera and what it looks at, in metres; without it one is found
+    #[arg(long, value_name = "X,Y,Z:X,Y,Z", value_parser = parse_witness, allow_hyphen_values = true)]
+    pub witness: Option<WitnessPlace>,
+    /// Leave out the edges of the mesh
+    #[arg(long)]
+    pub no_wireframe: bool,
+}
+
+/// `--colour`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Colour {
+    /// The view factor, blue where the camera looks to red where it cannot see
+    ViewFactor,
+    /// The mean edge length of each face
+    EdgeSize,
+    /// Stretch and compression
+    Strain,
+    /// The fabric
+    Plain,
+}
+
+/// A witness camera from the command line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WitnessPlace {
+    pub eye: DVec3,
+    pub target: DVec3,
+}
+
+/// Vertical field of view of a witness that is placed by hand (rad).
+const WITNESS_FOV_Y: f64 = 0.6;
+
+/// The strain at the ends of its colour scale: what woven cloth hardly ever exceeds.
+const STRAIN_LIMIT: f64 = 0.1;
+
+/// Shot views that decide where the witness stands: enough to know the path, few enough to be quick.
+const PATH_SAMPLES: usize = 24;
+
+/// Draws both views of the frames of a footage.
+pub struct Studio<'a> {
+    footage: &'a Footage,
+    camera: CameraPath,
+    gpu: Headless,
+    witness: View,
+    trail: CameraTrail,
+    cloth: Bounds,
+    options: PictureOptions,
+}
+
+impl<'a> Studio<'a> {
+    /// Pictures will be `width` wide (px); `None` takes the shot's own resolution.
+    ///
+    /// # Errors
+    /// If there is no adapter or no camera, or a frame cannot be read.
+    pub fn new(
+        footage: &'a Footage,
+        gpu: Headless,
+        args: &PictureArgs,
+        width: Option<u32>,
+    ) -> Result<Self> {
+        let camera = footage.camera()?.clone();
+        let first_view = camera.view(f64::from(footage.frames()[0]));
+        let size = width.map_or(first_view.resolution, |w| size_of_width(&first_view, w));
+        let subject = subject(footage, &camera)?;
+        let witness = match args.witness {
+            Some(place) => placed_witness(place, size),
+            None => witness_view(&subject, size),
+        };
+        let defaults = PictureOptions::default();
+        let options = PictureOptions {
+            size: Some(size),
+            colour_by: colour_by(args.colour, footage)?,
+            wire_strength: if args.no_wireframe { 0.0 } else { defaults.wire_strength },
+            ground_height: Some(subject.cloth.min.z),
+            ..defaults
+        };
+        let trail = trail(&camera, *footage.frames().last().unwrap_or(&0));
+        Ok(Self { footage, camera, gpu, witness, trail, cloth: subject.cloth, options })
+    }
+
+    pub fn options_mut(&mut self) -> &mut PictureOptions {
+        &mut self.options
+    }
+
+    pub fn colour_by(&self) -> ColourBy {
+        self.options.colour_by
+    }
+
+    /// What the shot camera sees.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn shot(&mut self, frame: &Frame) -> Result<RgbaImage> {
+        let view = self.camera.view(f64::from(frame.number));
+        let surfaces = self.footage.surfaces();
+        // The ground is the witness's: the shot shows what is in the scene.
+        let options = PictureOptions { ground_height: None, ..self.options.clone() };
+        Ok(self.gpu.picture(frame, &surfaces, &view, &options).map_err(Failure::from)?)
+    }
+
+    /// What the witness sees, the shot camera with it.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn witness(&mut self, frame: &Frame) -> Result<RgbaImage> {
+        let view = self.camera.view(f64::from(frame.number));
+        let camera = ShotCamera {
+            view: &view,
+            trail: &self.trail,
+            frustum_depth: ShotCamera::frustum_depth_past(&view, self.cloth),
+        };
+        let surfaces = self.footage.surfaces();
+        let picture =
+            self.gpu.witness_picture(frame, &surfaces, &self.witness, &camera, &self.options);
+        Ok(picture.map_err(Failure::from)?)
+    }
+}
+
+/// The cloth over all frames with the obstacles near it, and the shot camera's views.
+fn subject(footage: &Footage, camera: &CameraPath) -> Result<WitnessSubject> {
+    let mut subject = WitnessSubject { cloth: Bounds::EMPTY, views: Vec::new() };
+    let surfaces = footage.surfaces();
+    let stride = footage.frames().len().div_ceil(PATH_SAMPLES);
+    let mut last = None;
+    for (index, &number) in footage.frames().iter().enumerate() {
+        let frame = footage.frame(number)?;
+        subject.cloth = subject.cloth.union(Bounds::of_cloth(&frame));
+        if index % stride == 0 {
+            subject.views.push(camera.view(f64::from(number)));
+        }
+        last = Some(frame);
+    }
+    if let Some(frame) = last {
+        for (surface, &pose) in surfaces.iter().zip(&frame.obstacle_poses) {
+            subject = subject.with_obstacle(surface, pose);
+        }
+    }
+    Ok(subject)
+}
+
+fn trail(camera: &CameraPath, last: u32) -> CameraTrail {
+    let index = |frames: Vec<f64>| {
+        frames.into_iter().map(|f| f.round() as usize).filter(|&f| f <= last as usize).collect()
+    };
+    CameraTrail {
+        eyes: (0..=last).map(|frame| camera.view(f64::from(frame)).eye).collect(),
+        keys: index(camera.key_frames()),
+        cuts: index(camera.cuts()),
+    }
+}
+
+fn colour_by(colour: Colour, footage: &Footage) -> Result<ColourBy> {
+    Ok(match colour {
+        Colour::ViewFactor => ColourBy::view_factor(&footage.view_settings()),
+        Colour::EdgeSize => ColourBy::EdgeSize(edge_range(footage)?),
+        Colour::Strain => ColourBy::Strain { limit: STRAIN_LIMIT },
+        Colour::Plain => ColourBy::Plain,
+    })
+}
+
+/// From the shortest to the longest mean edge length of a face over all frames.
+fn edge_range(footage: &Footage) -> Result<LogRange> {
+    let by = ColourBy::EdgeSize(LogRange { start: 1.0, end: 2.0 });
+    let (mut start, mut end) = (f64::INFINITY, 0.0f64);
+    for &number in footage.frames() {
+        for mesh in &footage.frame(number)?.garments {
+            for length in mesh.face_ids().map(|f| by.value(mesh, f)) {
+                (start, end) = (start.min(length), end.max(length));
+            }
+        }
+    }
+    Ok(LogRange { start, end: end.max(start * 1.001) })
+}
+
+fn placed_witness(place: WitnessPlace, size: [u32; 2]) -> View {
+    let distance = place.eye.distance(place.target);
+    let key = CameraKey {
+        frame: 0.0,
+        eye: place.eye,
+        target: place.target,
+        up: DVec3::Z,
+        lens: Lens::FieldOfView { fov_y: WITNESS_FOV_Y },
+        cut: false,
+    };
+    let path = CameraPath {
+        name: "witness".to_owned(),
+        resolution: size,
+        pixel_aspect: 1.0,
+        near: 1e-3 * distance,
+        far: 1e3 * distance,
+        track: Track::Keys(vec![key]),
+    };
+    path.view(0.0)
+}
+
+fn parse_witness(text: &str) -> Result<WitnessPlace> {
+    let point = |part: &str| -> Result<DVec3> {
+        let numbers: Vec<f64> = part
+            .split(',')
+            .map(|n| n.trim().parse::<f64>().ok().filter(|n| n.is_finite()))
+            .collect::<Option<_>>()
+            .ok_or_else(|| anyhow!("{part:?} is not three numbers X,Y,Z"))?;
+        <[f64; 3]>::try_from(numbers)
+            .map(DVec3::from_array)
+            .map_err(|n| anyhow!("{part:?} has {} numbers, not three", n.len()))
+    };
+    let (eye, target) = text
+        .split_once(':')
+        .ok_or_else(|| anyhow!("{text:?} has no ':' between the place and what it looks at"))?;
+    let place = WitnessPlace { eye: point(eye)?, target: point(target)? };
+    if (place.target - place.eye).truncate() == glam::DVec2::ZERO {
+        return Err(anyhow!("{text:?} looks straight up or down, or nowhere"));
+    }
+    Ok(place)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_witness_is_two_points() {
+        let place = parse_witness("1,-2,3:0,0,0.5").unwrap();
+        assert_eq!(place.eye, DVec3::new(1.0, -2.0, 3.0));
+        assert_eq!(place.target, DVec3::new(0.0, 0.0, 0.5));
+        for text in ["1,2,3", "1,2:3,4,5", "1,2,x:0,0,0", "1,2,3:1,2,3", "0,0,4:0,0,0"] {
+            assert!(parse_witness(text).is_err(), "{text:?}");
+        }
+    }
+}

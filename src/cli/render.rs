@@ -1,0 +1,88 @@
+//! `shotsilk render`: PNG frames.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use clap::{Args, ValueEnum};
+use image::RgbaImage;
+
+use super::args::ShotArgs;
+use super::failure::Failure;
+use super::footage::Footage;
+use super::interrupt::Interrupt;
+use super::log::LogArgs;
+use super::output::PendingFile;
+use super::pictures::{PictureArgs, Studio};
+use super::progress::{Progress, ProgressMode};
+use crate::render::Headless;
+
+#[derive(Args, Debug)]
+pub struct RenderArgs {
+    #[command(flatten)]
+    shot: ShotArgs,
+    #[command(flatten)]
+    pictures: PictureArgs,
+    /// The folder to write, as FFFF.shot.png and FFFF.witness.png
+    #[arg(long, short, value_name = "FOLDER")]
+    out: PathBuf,
+    /// Which view to draw
+    #[arg(long, value_enum, default_value_t = Views::Both)]
+    view: Views,
+    /// Draw every N-th frame
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    every: u32,
+    /// Width of the pictures (px); without it the shot's own
+    #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u32).range(16..=16384))]
+    width: Option<u32>,
+    /// Draw the legend of the colours into the pictures
+    #[arg(long)]
+    legend: bool,
+}
+
+/// `--view`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Views {
+    Shot,
+    Witness,
+    Both,
+}
+
+/// Height of a legend's text (px).
+const LEGEND_PX: f32 = 14.0;
+
+/// # Errors
+/// If shot, run, folder or adapter are bad, or the simulation fails or is interrupted.
+pub fn run(args: &RenderArgs, log: LogArgs) -> Result<()> {
+    super::shot::set_threads(args.shot.threads)?;
+    let gpu = Headless::new(&args.pictures.adapter).map_err(Failure::from)?;
+    fs::create_dir_all(&args.out)
+        .with_context(|| format!("cannot create {:?}", args.out.display()))?;
+    PendingFile::create(&args.out.join("probe.png"))?;
+    let interrupt = Interrupt::install().context("cannot listen for signals")?;
+    let footage = Footage::open(&args.shot, args.every, &interrupt, log)?;
+    let mut studio = Studio::new(&footage, gpu, &args.pictures, args.width)?;
+    studio.options_mut().legend_px = args.legend.then_some(LEGEND_PX);
+    let mut progress = Progress::new(footage.frames().len() as u64, ProgressMode::detect(log));
+    for &number in footage.frames() {
+        if let Some(signal) = interrupt.requested() {
+            return Err(Failure::Interrupted(signal).into());
+        }
+        let frame = footage.frame(number)?;
+        let shown = i64::from(number) + footage.info().first_frame;
+        if args.view != Views::Witness {
+            save(&studio.shot(&frame)?, &args.out.join(format!("{shown:04}.shot.png")))?;
+        }
+        if args.view != Views::Shot {
+            save(&studio.witness(&frame)?, &args.out.join(format!("{shown:04}.witness.png")))?;
+        }
+        progress.frame(&frame, footage.info().first_frame);
+    }
+    progress.finish();
+    println!("{}", args.out.display());
+    Ok(())
+}
+
+fn save(image: &RgbaImage, path: &Path) -> Result<()> {
+    PendingFile::create(path)?.write_png(image)
+}
