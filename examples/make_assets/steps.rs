@@ -124,7 +124,7 @@ fn tilt(side: Side, frame: f64) -> f64 {
 fn around(side: Side, frame: f64) -> (Footing, Footing, f64) {
     let of_side = |(_, s): &(usize, &Step)| s.side == side;
     let begun = |(_, s): &(usize, &Step)| s.frames[0] <= frame;
-    let current = STEPS.iter().enumerate().filter(of_side).filter(begun).last();
+    let current = STEPS.iter().enumerate().filter(of_side).rfind(begun);
     match current {
         None => (first(side), first(side), 0.0),
         Some((index, step)) => {
