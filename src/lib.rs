@@ -42,4 +42,6 @@ pub mod run;
 pub mod render;
 pub mod sheet;
 
+pub mod own_shot;
+
 pub mod cli;

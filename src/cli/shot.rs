@@ -1,5 +1,7 @@
 //! From the arguments to a shot that can be simulated.
 
+use std::io;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result};
@@ -7,8 +9,11 @@ use anyhow::{Context, Result};
 use super::args::{FrameRange, ShotArgs};
 use super::failure::Failure;
 use super::interrupt::Interrupt;
+use crate::own_shot::own_shot;
 use crate::run::{InputHasher, RUN_FORMAT, RunInfo, cpu_features};
-use crate::scene::{FileSystem, LoadOptions, LoadedShot, Scene, Surface, load};
+use crate::scene::{
+    EmbeddedFiles, FileSource, FileSystem, LoadOptions, LoadedShot, Scene, Surface, load,
+};
 use crate::sim::{Frame, SimSettings, Simulation};
 
 /// A loaded shot and which of its frames are wanted.
@@ -23,18 +28,14 @@ impl Shot {
     /// # Errors
     /// If the shot cannot be loaded, or does not say where it ends.
     pub fn open(args: &ShotArgs) -> Result<Self> {
-        let path = args.shot.clone().ok_or_else(|| Failure::Usage("name a shot".into()))?;
-        if path.is_dir() {
-            let why = format!("{:?} is a folder, but a shot is a file", path.display());
-            return Err(Failure::Usage(why).into());
-        }
+        let (path, source) = shot_and_source(args)?;
         let options = LoadOptions {
             shot: path.clone(),
             camera: args.camera.clone(),
             sets: args.sets.clone(),
             fps: args.fps,
         };
-        let loaded = load(&options, &FileSystem).map_err(Failure::from)?;
+        let loaded = load(&options, source.as_ref()).map_err(Failure::from)?;
         for warning in &loaded.warnings {
             tracing::warn!("{warning}");
         }
@@ -74,9 +75,37 @@ impl Shot {
     }
 }
 
+/// The shot asked for, or the program's own, and where its files are.
+fn shot_and_source(args: &ShotArgs) -> Result<(PathBuf, Box<dyn FileSource>)> {
+    match &args.shot {
+        Some(path) if path.is_dir() => {
+            let why = format!("{:?} is a folder, but a shot is a file", path.display());
+            Err(Failure::Usage(why).into())
+        }
+        Some(path) => Ok((path.clone(), Box::new(FileSystem))),
+        None => {
+            let (path, files) = own_shot();
+            Ok((path, Box::new(OwnShotFiles(files))))
+        }
+    }
+}
+
 fn log_warnings(frame: &Frame) {
     for warning in &frame.report.warnings {
         tracing::warn!("frame {}: {warning}", frame.number);
+    }
+}
+
+/// The files of the own shot; what else the command line names, such as a camera, is a real file.
+struct OwnShotFiles(EmbeddedFiles);
+
+impl FileSource for OwnShotFiles {
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        if self.0.is_file(path) { self.0.read(path) } else { FileSystem.read(path) }
+    }
+
+    fn is_file(&self, path: &Path) -> bool {
+        self.0.is_file(path) || FileSystem.is_file(path)
     }
 }
 

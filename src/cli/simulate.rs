@@ -13,6 +13,7 @@ use super::output;
 use super::progress::{Progress, ProgressMode};
 use super::shot::{Shot, set_threads};
 use crate::run::{RunWriter, WriteOptions};
+use crate::sim::SizingMode;
 
 #[derive(Args, Debug)]
 pub struct SimulateArgs {
@@ -37,6 +38,9 @@ pub struct SimulateArgs {
 pub fn run(args: &SimulateArgs, log: LogArgs) -> Result<()> {
     set_threads(args.shot.threads)?;
     let shot = Shot::open(&args.shot)?;
+    if shot.settings.sizing == SizingMode::View && shot.scene.viewers.is_empty() {
+        tracing::warn!("there is no camera, so nothing is coarsened: name one with --camera");
+    }
     let options = WriteOptions {
         obj: args.obj,
         obj_obstacles: args.obj_obstacles,

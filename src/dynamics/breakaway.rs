@@ -29,7 +29,7 @@ const EXCESS_FACTOR: f64 = 1.5;
 /// The step is solved again if the forces that should not be are at least this share of all normal
 /// forces: less does not change how the cloth moves, and a second solution costs as much as the
 /// first.
-const EXCESS_SHARE: f64 = 0.01;
+const EXCESS_SHARE: f64 = 2e-3;
 
 impl System {
     /// Notes the contacts that the solution (velocity changes in the right side) finds torn or

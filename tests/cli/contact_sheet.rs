@@ -23,6 +23,17 @@ fn a_sheet_has_room_for_a_pair_of_pictures_for_every_nth_frame() {
 }
 
 #[test]
+fn without_a_shot_the_programs_own_is_drawn_wherever_it_runs() {
+    let shot = SmallShot::new();
+    shot.run("sheet --out own.png --frames 1 --every 1 --thumbnail-width 96").succeeds();
+    assert!(image::open(shot.path("own.png")).is_ok());
+    let settings = "--frames 0 --camera main.camera.json --fps 24 --set first_frame=7";
+    shot.run(&format!("simulate --out own {settings}")).succeeds();
+    let reader = shot.reader("own");
+    assert_eq!((reader.info().first_frame, reader.frames()), (7, &[0][..]));
+}
+
+#[test]
 fn an_earlier_sheet_stays_until_the_new_one_is_whole() {
     let shot = SmallShot::new();
     shot.write("sheet.png", "an earlier one");

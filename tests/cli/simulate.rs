@@ -130,6 +130,18 @@ fn every_way_of_sizing_is_recorded_and_uniform_keeps_its_mesh() {
 }
 
 #[test]
+fn who_sizes_by_view_without_a_camera_is_told() {
+    let shot = SmallShot::new();
+    shot.replace("shot.json", "\"camera\": \"main.camera.json\",", "");
+    let outcome = shot.run("simulate shot.json --out run --frames 1").succeeds();
+    assert!(outcome.stderr.contains("WARN there is no camera"), "{}", outcome.stderr);
+    let line = "simulate shot.json --out other --frames 1 --sizing adaptive";
+    assert!(!shot.run(line).succeeds().stderr.contains("camera"));
+    let frame = |run: &str| shot.reader(run).frame(1).unwrap();
+    assert_eq!(frame("run").garments, frame("other").garments);
+}
+
+#[test]
 fn a_simulation_that_fails_says_when_and_why_and_leaves_the_frames_before() {
     let shot = SmallShot::new();
     shot.run("simulate shot.json --out run --sizing uniform --set gravity=[0,0,-1e300]")
