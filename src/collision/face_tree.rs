@@ -3,11 +3,10 @@
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::Aabb;
-use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhLeafCost, BvhNode};
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 
+use super::nearest::{bounds, nearest_triangle};
 use super::proximity::Cloth;
-use super::shape::bounds;
-use crate::math::{ClosestPoint, closest_point_on_triangle};
 
 /// See the module.
 pub struct FaceTree {
@@ -58,14 +57,9 @@ impl FaceTree {
         outward: DVec3,
         reach: f64,
     ) -> Option<Touch> {
-        let box_distance =
-            |node: &BvhNode, _best: f64| point.distance(point.clamp(node.mins(), node.maxs()));
-        let leaf = |face: u32, _best: f64| {
-            let corners = corners(cloth.position, &cloth.faces[face as usize]);
-            let closest = closest_point_on_triangle(point, corners);
-            Some(Candidate { distance: closest.point.distance(point), closest })
-        };
-        let (face, best) = self.tree.find_best(reach, box_distance, leaf)?;
+        let best = nearest_triangle(&self.tree, point, reach, |face| {
+            corners(cloth.position, &cloth.faces[face as usize])
+        })?;
         let away = best.closest.point - point;
         let height = away.dot(outward);
         let is_outside = height > 0.0;
@@ -74,7 +68,7 @@ impl FaceTree {
         }
         let side = if is_outside { 1.0 } else { -1.0 };
         Some(Touch {
-            nodes: cloth.faces[face as usize].map(|n| n as usize),
+            nodes: cloth.faces[best.index as usize].map(|n| n as usize),
             weights: best.closest.barycentric,
             normal: (away * side).try_normalize().unwrap_or(outward),
             signed_distance: side * best.distance,
@@ -90,17 +84,6 @@ impl Touch {
     /// The cloth's point, or whatever the values belong to, at the touch.
     pub fn weighted_sum(&self, values: &[DVec3]) -> DVec3 {
         (0..3).map(|k| values[self.nodes[k]] * self.weights[k]).sum()
-    }
-}
-
-struct Candidate {
-    distance: f64,
-    closest: ClosestPoint,
-}
-
-impl BvhLeafCost for Candidate {
-    fn cost(&self) -> f64 {
-        self.distance
     }
 }
 

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::DVec3;
 use parry3d_f64::bounding_volume::Aabb;
 
-use super::shape::{Nearest, Shape, bounds};
+use super::nearest::bounds;
+use super::shape::{Nearest, Shape};
 use crate::scene::{Pose, Scene};
 
 /// The obstacles' shapes; where they are is said by an [`ObstacleMotion`].

@@ -6,9 +6,10 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::Aabb;
-use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhLeafCost, BvhNode};
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 
-use crate::math::{ClosestPoint, closest_point_on_triangle, triangles_cross};
+use super::nearest::{bounds, nearest_triangle};
+use crate::math::triangles_cross;
 use crate::scene::Surface;
 
 /// A closed surface with the pseudonormals that tell inside from outside.
@@ -77,14 +78,8 @@ impl Shape {
     /// The nearest point within a radius; `None` if there is none. The sign is that of the angle
     /// weighted pseudonormal ([`BA05`](crate::papers::BA05)): exact for a closed surface.
     pub fn nearest(&self, point: DVec3, radius: f64) -> Option<Nearest> {
-        let box_distance =
-            |node: &BvhNode, _best: f64| point.distance(point.clamp(node.mins(), node.maxs()));
-        let leaf = |triangle: u32, _best: f64| {
-            let closest = closest_point_on_triangle(point, self.corners(triangle));
-            Some(Candidate { distance: closest.point.distance(point), closest })
-        };
-        let (triangle, best) = self.tree.find_best(radius, box_distance, leaf)?;
-        let outward = self.pseudonormal(triangle, best.closest.barycentric);
+        let best = nearest_triangle(&self.tree, point, radius, |t| self.corners(t))?;
+        let outward = self.pseudonormal(best.index, best.closest.barycentric);
         let away = point - best.closest.point;
         let sign = if outward.dot(away) < 0.0 { -1.0 } else { 1.0 };
         let normal = (away * sign).try_normalize().unwrap_or(outward.normalize_or_zero());
@@ -147,24 +142,6 @@ impl Shape {
     }
 }
 
-struct Candidate {
-    distance: f64,
-    closest: ClosestPoint,
-}
-
-impl BvhLeafCost for Candidate {
-    fn cost(&self) -> f64 {
-        self.distance
-    }
-}
-
 fn normal_of([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     (b - a).cross(c - a).try_normalize()
-}
-
-/// The box around points; at least one.
-pub fn bounds(points: &[DVec3]) -> Aabb {
-    let low = points.iter().copied().reduce(DVec3::min).unwrap_or_default();
-    let high = points.iter().copied().reduce(DVec3::max).unwrap_or_default();
-    Aabb::new(low, high)
 }

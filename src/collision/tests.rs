@@ -69,9 +69,8 @@ fn the_velocity_of_a_turning_obstacle_is_that_of_its_points() {
 }
 
 /// One big face above the cube's top, its middle sagging to a height.
-fn sheet(height: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let at = |x: f64, y: f64| DVec3::new(x, y, height);
-    (vec![at(-4.0, -3.0), at(4.0, -3.0), at(0.0, 5.0)], vec![[0, 1, 2]])
+fn sheet(height: f64) -> Vec<DVec3> {
+    [(-4.0, -3.0), (4.0, -3.0), (0.0, 5.0)].map(|(x, y)| DVec3::new(x, y, height)).to_vec()
 }
 
 fn contacts_of(
@@ -87,9 +86,26 @@ fn contacts_of(
     contacts(cloth, &tree, obstacles, &SETTINGS)
 }
 
+/// Resolves one face; returns the impacts.
+fn resolved(
+    position_at_start: &[DVec3],
+    position: &mut [DVec3],
+    velocity: &mut [DVec3],
+    obstacles: &[ObstacleMotion],
+    settings: &Contact,
+    depth: Depth,
+) -> usize {
+    let faces = [[0, 1, 2]];
+    let mut tree = FaceTree::new(position_at_start, &faces);
+    let area = [1.0; 3];
+    let mut cloth =
+        MovedCloth { position, velocity, position_at_start, area: &area, faces: &faces };
+    resolve(&mut cloth, &mut tree, obstacles, settings, depth)
+}
+
 #[test]
 fn corners_of_an_obstacle_hold_a_face_that_has_no_node_near() {
-    let (positions, _) = sheet(1.005);
+    let positions = sheet(1.005);
     let found = contacts_of(&positions, DVec3::ZERO, &still());
     assert_eq!(found.len(), 4, "the four upper corners of the cube");
     for contact in &found {
@@ -102,18 +118,12 @@ fn corners_of_an_obstacle_hold_a_face_that_has_no_node_near() {
 
 #[test]
 fn a_face_that_sank_below_the_corners_is_lifted_out() {
-    let (start, faces) = sheet(1.02);
-    let (mut position, _) = sheet(0.996);
+    let start = sheet(1.02);
+    let mut position = sheet(0.996);
     let mut velocity = vec![DVec3::NEG_Z * 4.8; 3];
-    let mut tree = FaceTree::new(&start, &faces);
-    let mut cloth = MovedCloth {
-        position: &mut position,
-        velocity: &mut velocity,
-        position_at_start: &start,
-        area: &[1.0; 3],
-        faces: &faces,
-    };
-    assert!(resolve(&mut cloth, &mut tree, &still(), &SETTINGS, Depth::OfTheStep) > 0);
+    assert!(
+        resolved(&start, &mut position, &mut velocity, &still(), &SETTINGS, Depth::OfTheStep) > 0
+    );
     let found = contacts_of(&position, DVec3::ZERO, &still());
     assert!(found.iter().all(|c| c.gap > -SETTINGS.thickness));
 }
@@ -134,18 +144,9 @@ fn a_node_that_a_fast_obstacle_ran_over_is_carried_in_front_of_it() {
     let start =
         [DVec3::new(1.008, 0.0, 0.0), DVec3::new(3.0, 0.5, 0.0), DVec3::new(3.0, -0.5, 0.0)];
     let (mut position, mut velocity) = (start, [DVec3::ZERO; 3]);
-    let faces = [[0, 1, 2]];
-    let mut tree = FaceTree::new(&start, &faces);
     // Twenty thicknesses in a step.
     let obstacles = moving(Pose::IDENTITY, at(DVec3::X * 0.2));
-    let mut cloth = MovedCloth {
-        position: &mut position,
-        velocity: &mut velocity,
-        position_at_start: &start,
-        area: &[1.0; 3],
-        faces: &faces,
-    };
-    resolve(&mut cloth, &mut tree, &obstacles, &SETTINGS, Depth::OfTheStep);
+    resolved(&start, &mut position, &mut velocity, &obstacles, &SETTINGS, Depth::OfTheStep);
     assert!((position[0].x - 1.201).abs() < 1e-9, "{}", position[0]);
     assert!((velocity[0].x - 40.0).abs() < 1e-6, "{}", velocity[0]);
 }
@@ -161,16 +162,7 @@ fn a_node_between_two_overlapping_parts_is_reported_as_trapped() {
     ];
     let start = [DVec3::ZERO, DVec3::Y * 9.0, DVec3::Z * 9.0];
     let (mut position, mut velocity) = (start, [DVec3::ZERO; 3]);
-    let faces = [[0, 1, 2]];
-    let mut tree = FaceTree::new(&start, &faces);
-    let mut cloth = MovedCloth {
-        position: &mut position,
-        velocity: &mut velocity,
-        position_at_start: &start,
-        area: &[1.0; 3],
-        faces: &faces,
-    };
-    resolve(&mut cloth, &mut tree, &obstacles, &SETTINGS, Depth::Any);
+    resolved(&start, &mut position, &mut velocity, &obstacles, &SETTINGS, Depth::Any);
     assert_eq!(trapped_nodes(&position, &obstacles), 1);
     assert!(position.iter().all(|x| x.is_finite()));
 }
@@ -208,19 +200,11 @@ fn a_corner_inside_another_part_does_not_pull_cloth_in() {
     let small = Pose { scale: 0.5, translation: DVec3::Z * 0.497, ..Pose::IDENTITY };
     let obstacles =
         [Pose::IDENTITY, small].map(|p| ObstacleMotion::new(shape.clone(), p, p, 0.005));
-    let (positions, faces) = sheet(1.01);
+    let positions = sheet(1.01);
     let found = contacts_of(&positions, DVec3::ZERO, &obstacles);
     assert!(found.iter().all(|c| c.normal.z > 0.99), "{found:?}");
     let (mut position, mut velocity) = (positions.clone(), vec![DVec3::ZERO; 3]);
-    let mut tree = FaceTree::new(&positions, &faces);
-    let mut cloth = MovedCloth {
-        position: &mut position,
-        velocity: &mut velocity,
-        position_at_start: &positions,
-        area: &[1.0; 3],
-        faces: &faces,
-    };
-    resolve(&mut cloth, &mut tree, &obstacles, &SETTINGS, Depth::Any);
+    resolved(&positions, &mut position, &mut velocity, &obstacles, &SETTINGS, Depth::Any);
     assert_eq!(position, positions);
 }
 
@@ -238,23 +222,14 @@ fn a_node_that_went_deep_into_a_thin_part_leaves_where_it_came_in() {
     let start = [DVec3::Z * 0.012, far, far + DVec3::X];
     let (mut position, mut velocity) = (start, [DVec3::NEG_Z * 3.4, DVec3::ZERO, DVec3::ZERO]);
     position[0] = DVec3::Z * -0.005;
-    let faces = [[0, 1, 2]];
-    let mut tree = FaceTree::new(&start, &faces);
-    let mut cloth = MovedCloth {
-        position: &mut position,
-        velocity: &mut velocity,
-        position_at_start: &start,
-        area: &[1.0; 3],
-        faces: &faces,
-    };
-    resolve(&mut cloth, &mut tree, &obstacles, &settings, Depth::OfTheStep);
+    resolved(&start, &mut position, &mut velocity, &obstacles, &settings, Depth::OfTheStep);
     assert!((position[0].z - 0.0104).abs() < 1e-6, "{}", position[0]);
     assert!(velocity[0].z.abs() < 1e-12);
 }
 
 #[test]
 fn a_corner_is_foreseen_to_hit_a_face_that_has_no_node_near() {
-    let (positions, _) = sheet(1.025);
+    let positions = sheet(1.025);
     assert!(contacts_of(&positions, DVec3::ZERO, &still()).is_empty());
     assert_eq!(contacts_of(&positions, DVec3::NEG_Z * 4.0, &still()).len(), 4);
     let rising = moving(Pose::IDENTITY, at(DVec3::Z * 0.02));
