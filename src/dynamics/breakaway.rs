@@ -3,15 +3,15 @@
 //! Friction is linearised about the slip at the start of the step. A point that sticks there may be
 //! torn off by forces far beyond mu N: linearised sticking would hold it all the same, and give way
 //! only over many steps. A penalty is closed if inertia closes it, and would pull where the cloth
-//! lifts off. After the first solution such contacts are found, and the step is solved again with
-//! the friction they really have, mu N against their slip, or without them.
+//! lifts off. After a solution such contacts are found, and the step is solved again with the
+//! friction they really have, mu N against their slip, or without them.
 
 use glam::DVec3;
 
 use super::step::{StepForces, StepState};
 use super::system::System;
 
-/// What a first solution has shown of a contact.
+/// What solutions have shown of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Finding {
     /// Linearised well enough.
@@ -24,12 +24,16 @@ pub(super) enum Finding {
 
 /// A contact has broken away if its friction exceeds mu N by this factor: below, the linearisation
 /// is corrected by the next step.
-const EXCESS_FACTOR: f64 = 1.5;
+const EXCESS_FACTOR: f64 = 1.15;
 
 /// The step is solved again if the forces that should not be are at least this share of all normal
 /// forces: less does not change how the cloth moves, and a second solution costs as much as the
 /// first.
 const EXCESS_SHARE: f64 = 2e-3;
+
+/// A step is solved again at most so often: the second time brings the friction of the new pressure;
+/// a third changes next to nothing.
+pub(super) const CORRECTIONS_MAX: usize = 2;
 
 impl System {
     /// Notes the contacts that the solution (velocity changes in the right side) finds torn or
@@ -42,7 +46,7 @@ impl System {
     ) -> bool {
         let (mut excess, mut pressure) = (0.0, 0.0);
         let mut findings = vec![Finding::AsTaken; forces.contacts.len()];
-        for (contact, finding) in forces.contacts.iter().zip(&mut findings) {
+        for (index, contact) in forces.contacts.iter().enumerate() {
             let Some(response) = self.response(contact, state, forces, dt) else { continue };
             let change = contact.weighted_sum(&self.right_side);
             let force = response.force - response.tangent * change;
@@ -50,13 +54,25 @@ impl System {
             let held = force - contact.normal * normal;
             let limit = contact.friction * normal.max(0.0);
             pressure += normal.max(0.0);
-            if normal < 0.0 {
-                excess -= normal;
-                *finding = Finding::Open;
-            } else if contact.friction > 0.0 && held.length() > EXCESS_FACTOR * limit {
-                excess += held.length() - limit;
-                *finding = Finding::Sliding(held.normalize_or_zero() * limit);
-            }
+            findings[index] = match self.findings.get(index).unwrap_or(&Finding::AsTaken) {
+                Finding::Open => Finding::Open,
+                _ if normal < 0.0 => {
+                    excess -= normal;
+                    Finding::Open
+                }
+                // The pressure it was given was that of the solution before.
+                Finding::Sliding(friction) => {
+                    excess += (friction.length() - limit).abs();
+                    Finding::Sliding(friction.normalize_or_zero() * limit)
+                }
+                Finding::AsTaken
+                    if contact.friction > 0.0 && held.length() > EXCESS_FACTOR * limit =>
+                {
+                    excess += held.length() - limit;
+                    Finding::Sliding(held.normalize_or_zero() * limit)
+                }
+                Finding::AsTaken => Finding::AsTaken,
+            };
         }
         let again = excess > EXCESS_SHARE * pressure;
         if again {

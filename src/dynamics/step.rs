@@ -3,6 +3,7 @@
 use glam::DVec3;
 use thiserror::Error;
 
+use super::breakaway::CORRECTIONS_MAX;
 use super::contact::ContactPoint;
 use super::handles::HandleSpring;
 use super::solve::SolveError;
@@ -131,7 +132,10 @@ impl System {
         state.check_finite()?;
         self.findings.clear();
         let mut outcome = self.solve_step(state, forces, dt)?;
-        if self.examine_contacts(state, forces, dt) {
+        for _ in 0..CORRECTIONS_MAX {
+            if !self.examine_contacts(state, forces, dt) {
+                break;
+            }
             outcome = self.solve_step(state, forces, dt)?;
         }
         // Checked before anything is written.

@@ -424,3 +424,65 @@ fn equal_steps_give_equal_bits() {
     };
     assert_eq!(stepped(), stepped());
 }
+
+/// Every node of a sheet in contact with the plane z = 0, pressed in as far as its weight asks.
+fn resting_contacts(system: &System, friction: f64) -> Vec<ContactPoint> {
+    let stiffness = 50.0;
+    let contact = |(node, mass): (usize, &f64)| ContactPoint {
+        nodes: ContactPoint::weighted(&[(node, 1.0)]),
+        normal: DVec3::Z,
+        gap: -mass * 9.81 / stiffness,
+        surface_velocity: DVec3::ZERO,
+        stiffness,
+        friction,
+    };
+    system.masses().iter().enumerate().map(contact).collect()
+}
+
+#[test]
+fn a_resting_sheet_slides_at_once_when_pulled_beyond_friction() {
+    let (mut system, mut state) = system_of(&[&sheet(6, 0.3, 0.2)], 0.0);
+    let contacts = resting_contacts(&system, 0.1);
+    let gravity = DVec3::new(2.0, 0.0, -9.81);
+    let forces = StepForces { gravity, contacts: &contacts, ..StepForces::NONE };
+    for _ in 0..4 {
+        system.step_frozen(&mut state, &forces, DT).unwrap();
+    }
+    let expected = (2.0 - 0.1 * 9.81) * 4.0 * DT;
+    for v in &state.velocity {
+        assert!((v.x - expected).abs() < 0.02 * expected, "{v} m/s, expected {expected}");
+    }
+}
+
+#[test]
+fn a_resting_sheet_sticks_when_pulled_within_friction() {
+    let (mut system, mut state) = system_of(&[&sheet(6, 0.3, 0.2)], 0.0);
+    let contacts = resting_contacts(&system, 0.3);
+    let gravity = DVec3::new(2.0, 0.0, -9.81);
+    let forces = StepForces { gravity, contacts: &contacts, ..StepForces::NONE };
+    for _ in 0..40 {
+        system.step_frozen(&mut state, &forces, DT).unwrap();
+    }
+    assert!(state.velocity.iter().all(|v| v.length() < 1e-4));
+}
+
+#[test]
+fn a_contact_does_not_hold_back_cloth_that_is_pulled_off() {
+    let pulled = |contacts: &dyn Fn(&System) -> Vec<ContactPoint>| {
+        let (mut system, mut state) = system_of(&[&sheet(6, 0.3, 0.2)], 0.0);
+        let contacts = contacts(&system);
+        let target = state.position[24] + DVec3::Z * 0.1;
+        let handles = [HandleSpring { node: 24, target, stiffness: 100.0 }];
+        let forces = StepForces { handles: &handles, contacts: &contacts, ..StepForces::NONE };
+        system.step_frozen(&mut state, &forces, DT).unwrap();
+        state.velocity[24]
+    };
+    // At no distance and with no weight, the contact can only pull.
+    let touching = |system: &System| {
+        let mut contacts = resting_contacts(system, 0.3);
+        contacts.iter_mut().for_each(|c| c.gap = 0.0);
+        contacts
+    };
+    let (held, free) = (pulled(&touching), pulled(&|_| Vec::new()));
+    assert!((held - free).length() < 1e-3 * free.length(), "{held} and {free} m/s");
+}
