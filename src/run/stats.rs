@@ -61,9 +61,15 @@ impl StatsFile {
         Ok(Self { file: file.map_err(RunError::io("open", path))?, path: path.to_owned() })
     }
 
-    /// `shown` is the frame's number with the shot's first frame added.
-    pub fn append(&mut self, shown: i64, frame: &Frame) -> Result<(), RunError> {
-        self.append_line(&row(shown, frame))
+    /// `shown` is the frame's number with the shot's first frame added, `writing_cpu_seconds` what
+    /// it took to write the frame's files.
+    pub fn append(
+        &mut self,
+        shown: i64,
+        frame: &Frame,
+        writing_cpu_seconds: f64,
+    ) -> Result<(), RunError> {
+        self.append_line(&row(shown, frame, writing_cpu_seconds))
     }
 
     pub fn sync(self) -> Result<(), RunError> {
@@ -92,7 +98,7 @@ pub(super) fn rows(path: &Path) -> Vec<(i64, String)> {
 }
 
 /// Numbers in the shortest form that reads back to the same bits.
-pub(super) fn row(shown: i64, frame: &Frame) -> String {
+pub(super) fn row(shown: i64, frame: &Frame, writing_cpu_seconds: f64) -> String {
     let FrameReport {
         stages,
         counts,
@@ -112,7 +118,7 @@ pub(super) fn row(shown: i64, frame: &Frame) -> String {
         frame.vertex_count().to_string(),
         frame.node_count().to_string(),
         stages.total().to_string(),
-        cpu_seconds.to_string(),
+        (cpu_seconds + writing_cpu_seconds).to_string(),
     ];
     fields.extend(stages.entries().map(|(_, seconds)| seconds.to_string()));
     fields.extend([

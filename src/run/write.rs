@@ -5,6 +5,8 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use cpu_time::ProcessTime;
+
 use super::obj::{cloth_obj, obstacle_obj};
 use super::place::{Place, write_whole};
 use super::sealed::{FRAME_MAGIC, OBSTACLES_MAGIC, seal};
@@ -86,6 +88,7 @@ impl RunWriter {
     /// Frames must come in order. The row of statistics comes last: a frame that has one is
     /// complete.
     pub fn write(&mut self, frame: &Frame) -> Result<(), RunError> {
+        let started = ProcessTime::now();
         let shown = i64::from(frame.number) + self.first_frame;
         if self.options.obj {
             for (index, garment) in frame.garments.iter().enumerate() {
@@ -101,7 +104,7 @@ impl RunWriter {
             }
         }
         write_sealed(&self.place.frame(frame.number), FRAME_MAGIC, &frame_bytes(frame))?;
-        self.stats.append(shown, frame)
+        self.stats.append(shown, frame, started.elapsed().as_secs_f64())
     }
 
     /// Makes sure that the statistics have reached the disk.
@@ -134,7 +137,8 @@ fn resumed_stats(run: &RunReader, place: &Place, last: u32) -> Result<StatsFile,
     for &number in run.frames() {
         let shown = i64::from(number) + first_frame;
         if number <= last && !rows.contains_key(&shown) {
-            rows.insert(shown, stats::row(shown, &run.frame(number)?));
+            // What writing it took is lost with the row.
+            rows.insert(shown, stats::row(shown, &run.frame(number)?, 0.0));
         }
     }
     let mut lines = vec![stats::STATS_COLUMNS.join(",")];
