@@ -38,8 +38,9 @@ pub struct Nearest {
 }
 
 impl Shape {
-    /// Triangles without area take no part.
+    /// Points at the same place are one; triangles without area take no part.
     pub fn new(surface: &Surface) -> Self {
+        let surface = surface.welded();
         let corner = |t: &[u32; 3]| t.map(|v| surface.positions[v as usize]);
         let triangles: Vec<[u32; 3]> =
             surface.triangles.iter().filter(|t| normal_of(corner(t)).is_some()).copied().collect();

@@ -14,6 +14,7 @@ mod pose;
 mod resolve;
 mod settings;
 mod source;
+mod surface;
 
 pub use error::{LoadError, Place, Problem};
 pub use fabric::{Fabric, MeasuredFabric, StretchStiffness};
@@ -23,6 +24,7 @@ pub use pose::{Pose, PoseVelocity};
 pub use resolve::{load_camera, recorded_viewers};
 pub use settings::{Air, Contact, SizingSettings, StageSwitches, ViewRule, ViewSettings};
 pub use source::{EmbeddedFiles, FileRead, FileSource, FileSystem};
+pub use surface::Surface;
 
 use std::sync::Arc;
 
@@ -83,13 +85,6 @@ pub struct Obstacle {
     pub placement: Pose,
     /// Index into the scene's motions.
     pub motion: Option<usize>,
-}
-
-/// Triangles without connectivity; counter-clockwise seen from outside.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Surface {
-    pub positions: Vec<DVec3>,
-    pub triangles: Vec<[u32; 3]>,
 }
 
 /// Nodes of a garment that are held, or led along a motion.

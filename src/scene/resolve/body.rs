@@ -136,6 +136,14 @@ impl Resolver<'_> {
             return Ok(surface.clone());
         }
         let surface = Arc::new(surface_from_obj(&path.to_string_lossy(), text, self.warnings)?);
+        let open_edges = surface.open_edge_count();
+        if open_edges > 0 {
+            self.warnings.push(format!(
+                "{}: the surface has {open_edges} open edges: cloth beside them may be taken for \
+                 inside",
+                path.display()
+            ));
+        }
         self.surfaces.insert(path, surface.clone());
         Ok(surface)
     }
