@@ -154,9 +154,11 @@ impl MovingCloth {
         let fabrics: Vec<&Fabric> = scene.garments.iter().map(|g| &g.fabric).collect();
         let state = StepState::gathered(&meshes);
         let faces = global_faces(garments);
+        // Only obstacles ask for the nearest face.
+        let asked_for: &[_] = if scene.obstacles.is_empty() { &[] } else { &faces };
         Self {
             system: System::new(&meshes, &fabrics),
-            tree: FaceTree::new(&state.position, &faces),
+            tree: FaceTree::new(&state.position, asked_for),
             area: meshes.iter().flat_map(|m| m.node_areas().into_vec()).collect(),
             held: HeldNodes::new(scene, garments),
             state,

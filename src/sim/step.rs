@@ -92,7 +92,7 @@ impl Simulation {
             let moving = self.obstacles.moving(&poses[0], &poses[1], step_time);
             (moving, self.anchors.springs(&scene, &self.cloth.held, &before.position, end))
         });
-        let contacts = match scene.stages.proximity {
+        let contacts = match scene.stages.proximity && !obstacles.is_empty() {
             true => clock.time(Stage::Proximity, || self.contacts(&obstacles)),
             false => Vec::new(),
         };
@@ -115,7 +115,9 @@ impl Simulation {
     fn keep_if_finite(&mut self, before: StepState, end: f64) -> Result<(), StepError> {
         if let Err(error) = self.cloth.state.check_finite() {
             self.cloth.state = before;
-            self.cloth.refit();
+            if !self.obstacles.is_empty() {
+                self.cloth.refit();
+            }
             return Err(error);
         }
         self.anchors.take_hold(&self.scene, &self.cloth.held, &before.position, end);
