@@ -1,5 +1,5 @@
 //! The wish to stop, from the keyboard or the system: asked for between steps, so that a run is
-//! left which `--resume` continues.
+//! left which is whole.
 
 use std::io;
 use std::sync::Arc;

@@ -13,6 +13,7 @@ mod schema;
 mod sheet;
 mod shot;
 mod simulate;
+mod summary;
 
 use std::process::ExitCode;
 

@@ -12,6 +12,7 @@ use super::log::LogArgs;
 use super::output;
 use super::progress::{Progress, ProgressMode};
 use super::shot::{Shot, set_threads};
+use super::summary::Summary;
 use crate::run::{RunWriter, WriteOptions};
 use crate::sim::SizingMode;
 
@@ -51,14 +52,17 @@ pub fn run(args: &SimulateArgs, log: LogArgs) -> Result<()> {
     let interrupt = Interrupt::install().context("cannot listen for signals")?;
     let frame_count = u64::from(shot.frames.last) + 1;
     let mut progress = Progress::new(frame_count, ProgressMode::detect(log));
+    let mut summary = Summary::default();
     let result = shot.simulate(&interrupt, |frame| {
         if shot.frames.contains(frame.number) {
             writer.write(&frame).map_err(Failure::from)?;
         }
+        summary.add(&frame, shot.scene.steps_per_frame);
         progress.frame(&frame, shot.info.first_frame);
         Ok(())
     });
     progress.finish();
+    tracing::info!("{summary}");
     result.with_context(|| format!("cannot simulate the shot {:?}", shot.info.shot))?;
     writer.finish().map_err(Failure::from)?;
     output::print(args.out.display())
