@@ -86,9 +86,9 @@ fn logs_are_lines_objects_or_silent() {
     assert!(text.starts_with("frame 0 (1 of 2): "), "{text}");
     assert_eq!(shot.run(&format!("{line} quiet --quiet")).succeeds().stderr, "");
     let json = shot.run(&format!("{line} json --log json")).succeeds().stderr;
-    for line in json.lines() {
-        let event: serde_json::Value = serde_json::from_str(line).unwrap();
-        assert_eq!(event["total"], 2);
-    }
-    assert_eq!(json.lines().count(), 2);
+    let events: Vec<serde_json::Value> =
+        json.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(events.len(), 3, "two frames and the sum");
+    assert!(events[..2].iter().all(|event| event["total"] == 2));
+    assert!(events[2]["message"].as_str().unwrap().starts_with("1 frames; faces"));
 }
