@@ -87,16 +87,12 @@ impl ObstacleMotion {
 
     /// Whether a point is inside at the end of the step.
     pub fn contains_at_end(&self, point: DVec3) -> bool {
-        let bounds = &self.bounds_at_end;
-        point == point.clamp(bounds.mins, bounds.maxs)
-            && self.nearest_at_end(point, f64::INFINITY).is_some_and(|n| n.signed_distance < 0.0)
+        self.contains(point, self.end, self.own_from_end, &self.bounds_at_end)
     }
 
     /// Whether a point is inside at the start of the step.
     pub fn contains_at_start(&self, point: DVec3) -> bool {
-        let bounds = &self.bounds_at_start;
-        point == point.clamp(bounds.mins, bounds.maxs)
-            && self.nearest_at_start(point, f64::INFINITY).is_some_and(|n| n.signed_distance < 0.0)
+        self.contains(point, self.start, self.own_from_start, &self.bounds_at_start)
     }
 
     /// The nearest point of the surface at the start of the step, within a radius (m).
@@ -121,6 +117,20 @@ impl ObstacleMotion {
         let apart = around.mins.cmpgt(self.bounds_at_end.maxs).any()
             || self.bounds_at_end.mins.cmpgt(around.maxs).any();
         !apart && self.shape.is_crossed_by(triangle.map(|p| self.own_from_end.transform_point(p)))
+    }
+
+    fn contains(
+        &self,
+        point: DVec3,
+        world_from_own: Pose,
+        own_from_world: Pose,
+        bounds: &Aabb,
+    ) -> bool {
+        // Most points are outside the box: the surface need not be searched for them.
+        point == point.clamp(bounds.mins, bounds.maxs)
+            && self
+                .nearest(point, f64::INFINITY, world_from_own, own_from_world, bounds)
+                .is_some_and(|n| n.signed_distance < 0.0)
     }
 
     fn nearest(
