@@ -140,7 +140,7 @@ impl System {
             bending.extend(self.hinges[garment.hinges.clone()].iter().map(|hinge| {
                 // A hinge without an angle has no force either, whatever its stiffness.
                 let angle = dihedral_angle(hinge.corners(positions)).unwrap_or(0.0);
-                hinge.stiffness(angle, |edge, curve| fabric.bending_stiffness(edge, curve))
+                hinge.stiffness(angle, |edge, curve| fabric.hinge_stiffness(edge, curve))
             }));
         }
     }

@@ -101,7 +101,7 @@ fn a_native_shot_resolves_to_a_scene_with_defaults() {
     assert_eq!(garment.sizing.refine_velocity, f64::INFINITY);
     assert_eq!((garment.sizing.edge_length_min, garment.sizing.edge_length_max), (0.01, 0.5));
     assert_eq!(garment.fabric.density(), 0.2);
-    assert_eq!(garment.fabric.bending_stiffness(0.0, 0.0), 6.0);
+    assert_eq!(garment.fabric.hinge_stiffness(0.0, 0.0), 6.0);
     let handle = &scene.handles[0];
     assert_eq!((handle.nodes.as_slice(), handle.end_time), ([2, 3].as_slice(), 1.5));
     let lifted = scene.motions[handle.motion.unwrap()].pose(1.0).translation;

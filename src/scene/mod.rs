@@ -17,7 +17,7 @@ mod source;
 mod surface;
 
 pub use error::{LoadError, Place, Problem};
-pub use fabric::{Fabric, MeasuredFabric, StretchStiffness};
+pub use fabric::{ElasticFabric, Fabric, IsotropicSheet, MeasuredFabric, StretchStiffness};
 pub use load::{LoadOptions, LoadedShot, load, shot_schema};
 pub use motion::{Motion, MotionError, MotionKey};
 pub use pose::{Pose, PoseVelocity};

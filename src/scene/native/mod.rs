@@ -3,13 +3,14 @@
 //! The doc comment of each field is its help text in the schema and in the program.
 
 mod camera;
+mod fabric;
 mod parts;
 mod setup;
 
 pub use camera::{CameraFile, KeyFile, MatrixFile, SampleFile};
+pub use fabric::{ElasticFile, FabricFile, WarpWeft};
 pub use parts::{
-    FabricFile, GarmentFile, HandleFile, KeyframeFile, MotionFile, ObstacleFile, TransformFile,
-    VelocityFile,
+    GarmentFile, HandleFile, KeyframeFile, MotionFile, ObstacleFile, TransformFile, VelocityFile,
 };
 pub(super) use setup::stages;
 pub use setup::{AirFile, ContactFile, SizingFile, StageName, ViewFile};

@@ -1,4 +1,4 @@
-//! The parts of a shot file that make things: fabrics, garments, motions, obstacles, handles.
+//! The parts of a shot file that make things: garments, motions, obstacles, handles.
 
 use glam::{DQuat, DVec3};
 use schemars::JsonSchema;
@@ -33,52 +33,6 @@ impl TransformFile {
             None => DQuat::IDENTITY,
         };
         Pose { scale: self.scale, rotation, translation: DVec3::from_array(self.translate) }
-    }
-}
-
-/// A fabric: measured tables, here or in a material file, and factors on them.
-#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct FabricFile {
-    /// A material file with `density`, `stretching` and `bending`; instead of the tables here.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub file: Option<String>,
-    /// Mass per area (kg/m^2).
-    pub density: Option<f64>,
-    /// Six rows of (k_uu, k_uv, k_vv, k_shear) (N/m): at rest, then for the larger principal
-    /// stretch at 0, 22.5, 45, 67.5 and 90 degrees from u and a stretch of 1 + 1/6.
-    pub stretching: Option<[[f64; 4]; 6]>,
-    /// Three rows (edge at 0, 45, 90 degrees from u) of five (curvature 0, 5, 10, 15, 20 1/m)
-    /// bending stiffnesses (N m).
-    pub bending: Option<[[f64; 5]; 3]>,
-    /// Factor on the mass. Default 1.
-    pub density_mult: f64,
-    /// Factor on the stretching stiffness. Default 1.
-    pub stretching_mult: f64,
-    /// Factor on the bending stiffness. Default 1.
-    pub bending_mult: f64,
-    /// Layers of the same fabric: a factor on mass, stretching and bending. Default 1.
-    pub thicken: f64,
-    /// Damping proportional to stiffness (s). Default 0.
-    pub damping: f64,
-    /// Least and largest stretch ratio, for example [0.95, 1.05]. Default none. Not enforced yet.
-    pub strain_limits: Option<[f64; 2]>,
-}
-
-impl Default for FabricFile {
-    fn default() -> Self {
-        Self {
-            file: None,
-            density: None,
-            stretching: None,
-            bending: None,
-            density_mult: 1.0,
-            stretching_mult: 1.0,
-            bending_mult: 1.0,
-            thicken: 1.0,
-            damping: 0.0,
-            strain_limits: None,
-        }
     }
 }
 

@@ -1,25 +1,12 @@
-//! Garments and the fabrics they are made of.
+//! Garments.
 
-use serde::Deserialize;
-
+use super::limit::check_transform;
 use super::{Limit, Resolver, pinned, stem};
 use crate::mesh::Mesh;
-use crate::scene::document::{Node, Value};
-use crate::scene::error::{LoadError, Problem, nearest};
-use crate::scene::native::{FabricFile, GarmentFile};
+use crate::scene::error::{LoadError, Problem};
+use crate::scene::native::GarmentFile;
 use crate::scene::obj::ClothObj;
-use crate::scene::resolve::limit::{check, check_transform};
-use crate::scene::{Fabric, Garment, Handle, MeasuredFabric, SizingSettings, ViewSettings};
-
-/// The tables of a material file.
-#[derive(Deserialize)]
-struct Tables {
-    density: f64,
-    stretching: [[f64; 4]; 6],
-    bending: [[f64; 5]; 3],
-}
-
-const TABLE_NAMES: [&str; 3] = ["density", "stretching", "bending"];
+use crate::scene::{Garment, Handle, SizingSettings, ViewSettings};
 
 impl Resolver<'_> {
     pub(super) fn garments(
@@ -108,103 +95,4 @@ impl Resolver<'_> {
         }
         Ok(())
     }
-
-    /// The fabric of a name that is written at `path`.
-    fn fabric(&mut self, path: &str, name: &str) -> Result<Fabric, LoadError> {
-        let Some(file) = self.file.fabrics.get(name).cloned() else {
-            let nearest = nearest(name, self.file.fabrics.keys().map(String::as_str));
-            let problem = Problem::UnknownName { kind: "fabric", name: name.to_owned(), nearest };
-            return Err(problem.at(self.document.place_of(path)));
-        };
-        let path = format!("fabrics.{name}");
-        self.check_factors(&path, &file)?;
-        let tables = match &file.file {
-            Some(relative) => self.tables_of_file(&path, relative, &file)?,
-            None => self.inline_tables(&path, &file)?,
-        };
-        if file.strain_limits.is_some() {
-            let warning = format!("{path}.strain_limits are kept but not enforced yet");
-            if !self.warnings.contains(&warning) {
-                self.warnings.push(warning);
-            }
-        }
-        let stretching = file.stretching_mult * file.thicken;
-        let bending = file.bending_mult * file.thicken;
-        Ok(Fabric::Measured(MeasuredFabric {
-            density: tables.density * file.density_mult * file.thicken,
-            stretching: tables.stretching.map(|row| row.map(|k| k * stretching)),
-            bending: tables.bending.map(|row| row.map(|k| k * bending)),
-            damping: file.damping,
-            strain_limits: file.strain_limits,
-        }))
-    }
-
-    fn check_factors(&self, path: &str, file: &FabricFile) -> Result<(), LoadError> {
-        for (name, value, limit) in [
-            ("density_mult", file.density_mult, Limit::Positive),
-            ("stretching_mult", file.stretching_mult, Limit::Positive),
-            ("bending_mult", file.bending_mult, Limit::AtLeastZero),
-            ("thicken", file.thicken, Limit::Positive),
-            ("damping", file.damping, Limit::AtLeastZero),
-        ] {
-            self.check(&format!("{path}.{name}"), value, limit)?;
-        }
-        if let Some([least, largest]) = file.strain_limits {
-            self.check(&format!("{path}.strain_limits.0"), least, Limit::Share)?;
-            self.check(&format!("{path}.strain_limits.1"), largest, Limit::AtLeast(1.0))?;
-        }
-        Ok(())
-    }
-
-    fn inline_tables(&self, path: &str, file: &FabricFile) -> Result<Tables, LoadError> {
-        let missing = |needed| {
-            Problem::Missing { thing: path.to_owned(), needed }.at(self.document.place_of(path))
-        };
-        let tables = Tables {
-            density: file.density.ok_or_else(|| missing("a file, or its density"))?,
-            stretching: file.stretching.ok_or_else(|| missing("a file, or its stretching"))?,
-            bending: file.bending.ok_or_else(|| missing("a file, or its bending"))?,
-        };
-        check_tables(self.document, &format!("{path}."), &tables)?;
-        Ok(tables)
-    }
-
-    fn tables_of_file(
-        &mut self,
-        path: &str,
-        relative: &str,
-        file: &FabricFile,
-    ) -> Result<Tables, LoadError> {
-        let inline = [file.density.is_some(), file.stretching.is_some(), file.bending.is_some()];
-        if let Some(k) = inline.iter().position(|&given| given) {
-            let (first, second) = ("file", TABLE_NAMES[k]);
-            let problem = Problem::Exclusive { thing: path.to_owned(), first, second };
-            return Err(problem.at(self.document.place_of(&format!("{path}.{second}"))));
-        }
-        let (file, text) = self.text_at(&format!("{path}.file"), relative)?;
-        let document = Node::parse(&file.to_string_lossy(), &text)?;
-        if let Value::Object(members) = &document.value {
-            for member in members.iter().filter(|m| !TABLE_NAMES.contains(&m.name.as_str())) {
-                self.warnings.push(format!("{}: {:?} is not used", member.place, member.name));
-            }
-        }
-        let tables: Tables = document.deserialize()?;
-        check_tables(&document, "", &tables)?;
-        Ok(tables)
-    }
-}
-
-fn check_tables(document: &Node, prefix: &str, tables: &Tables) -> Result<(), LoadError> {
-    check(document, &format!("{prefix}density"), tables.density, Limit::Positive)?;
-    for (i, row) in tables.stretching.iter().enumerate() {
-        for (j, &value) in row.iter().enumerate() {
-            check(document, &format!("{prefix}stretching.{i}.{j}"), value, Limit::Finite)?;
-        }
-    }
-    for (i, row) in tables.bending.iter().enumerate() {
-        for (j, &value) in row.iter().enumerate() {
-            check(document, &format!("{prefix}bending.{i}.{j}"), value, Limit::AtLeastZero)?;
-        }
-    }
-    Ok(())
 }

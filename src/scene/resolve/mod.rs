@@ -3,6 +3,7 @@
 mod body;
 mod camera;
 mod cloth;
+mod fabric;
 mod limit;
 mod record;
 

@@ -34,5 +34,17 @@ fn fabric(fabric: &Fabric) -> Value {
             "damping": measured.damping,
             "strain_limits": measured.strain_limits,
         }),
+        Fabric::Elastic(elastic) => json!({
+            "elastic": {
+                "density": elastic.density,
+                "membrane_stiffness": elastic.membrane_stiffness,
+                "shear_stiffness": elastic.shear_stiffness,
+                "poisson_ratio": elastic.poisson_ratio,
+                "bending_rigidity": elastic.bending_rigidity,
+                "twist_rigidity": elastic.twist_rigidity,
+            },
+            "damping": elastic.damping,
+            "strain_limits": elastic.strain_limits,
+        }),
     }
 }

@@ -2,13 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_8};
 
-use crate::math::{Mat3x2, SymTensor2};
-
-/// What a garment is made of.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Fabric {
-    Measured(MeasuredFabric),
-}
+use super::StretchStiffness;
+use crate::math::SymTensor2;
 
 /// A fabric from the tables of [`WOR11`](crate::papers::WOR11): orthotropic stretch which depends
 /// on strain, bending which depends on curvature.
@@ -26,47 +21,6 @@ pub struct MeasuredFabric {
     pub damping: f64,
     /// Least and largest principal stretch the garment may show.
     pub strain_limits: Option<[f64; 2]>,
-}
-
-/// Stiffness of one face, frozen over a step (N/m):
-/// psi = 1/2 (k_uu E_uu^2 + k_vv E_vv^2) + k_uv E_uu E_vv + k_shear E_uv^2.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StretchStiffness {
-    pub uu: f64,
-    pub uv: f64,
-    pub vv: f64,
-    pub shear: f64,
-}
-
-impl Fabric {
-    /// (kg/m^2).
-    pub fn density(&self) -> f64 {
-        match self {
-            Fabric::Measured(fabric) => fabric.density,
-        }
-    }
-
-    /// Damping proportional to stiffness (s).
-    pub fn damping(&self) -> f64 {
-        match self {
-            Fabric::Measured(fabric) => fabric.damping,
-        }
-    }
-
-    /// The stretch stiffness at a deformation gradient.
-    pub fn stretch_stiffness(&self, deformation: Mat3x2) -> StretchStiffness {
-        match self {
-            Fabric::Measured(fabric) => fabric.stretch_stiffness(deformation.gram()),
-        }
-    }
-
-    /// The bending stiffness (N m) of an edge at an angle from u (rad, any) and a curvature (1/m,
-    /// its sign of no consequence).
-    pub fn bending_stiffness(&self, edge_angle: f64, curvature: f64) -> f64 {
-        match self {
-            Fabric::Measured(fabric) => fabric.bending_stiffness(edge_angle, curvature),
-        }
-    }
 }
 
 /// The stretch at which rows 1 to 5 of the stretching table were measured.

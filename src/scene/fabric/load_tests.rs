@@ -1,0 +1,113 @@
+//! Elastic fabrics as a shot names them.
+
+use std::path::Path;
+
+use super::{ElasticFabric, Fabric, IsotropicSheet};
+use crate::scene::{EmbeddedFiles, LoadError, LoadOptions, LoadedShot, load};
+
+const SHEET: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+
+fn load_fabric(fabric: &str) -> Result<LoadedShot, LoadError> {
+    let shot = format!(
+        r#"{{"shotsilk": 1, "fabrics": {{"f": {fabric}}}, "garments": [{{"mesh": "a.obj", "fabric": "f"}}]}}"#
+    );
+    let source =
+        EmbeddedFiles::default().with("a.obj", SHEET.as_bytes()).with("a.json", shot.into_bytes());
+    let shot = Path::new("a.json").into();
+    load(&LoadOptions { shot, ..LoadOptions::default() }, &source)
+}
+
+fn elastic(fabric: &str) -> ElasticFabric {
+    match &load_fabric(fabric).unwrap().scene.garments[0].fabric {
+        Fabric::Elastic(elastic) => elastic.clone(),
+        Fabric::Measured(_) => panic!("{fabric} is elastic"),
+    }
+}
+
+#[test]
+fn an_isotropic_sheet_follows_from_modulus_thickness_and_poisson_ratio() {
+    let sheet = elastic(
+        r#"{"elastic": {"density": 0.5, "young_modulus": 2e6, "thickness": 1e-3, "poisson_ratio": 0.4}}"#,
+    );
+    let rigidity = 2e6 * 1e-9 / (12.0 * (1.0 - 0.4 * 0.4));
+    let expected = IsotropicSheet {
+        density: 0.5,
+        membrane_stiffness: 2e3,
+        poisson_ratio: 0.4,
+        bending_rigidity: rigidity,
+    };
+    let expected = expected.fabric();
+    let pairs = [
+        (sheet.membrane_stiffness[1], expected.membrane_stiffness[1]),
+        (sheet.shear_stiffness, 2e3 / 2.8),
+        (sheet.bending_rigidity[0], rigidity),
+        (sheet.twist_rigidity, 0.6 * rigidity),
+        (sheet.density, 0.5),
+    ];
+    for (found, expected) in pairs {
+        assert!((found / expected - 1.0).abs() < 1e-12, "{found}, not {expected}");
+    }
+}
+
+#[test]
+fn warp_and_weft_and_all_factors_are_taken() {
+    let sheet = elastic(
+        r#"{"elastic": {"density": 0.2, "membrane_stiffness": [400, 100], "shear_stiffness": 30,
+            "poisson_ratio": 0, "bending_rigidity": [9e-6, 4e-6]},
+            "thicken": 2, "density_mult": 3, "stretching_mult": 5, "bending_mult": 7,
+            "damping": 0.01, "strain_limits": [0.9, 1.1]}"#,
+    );
+    assert_eq!(sheet.membrane_stiffness, [4000.0, 1000.0]);
+    assert_eq!(sheet.shear_stiffness, 300.0);
+    assert!((sheet.density - 1.2).abs() < 1e-12);
+    assert!((sheet.bending_rigidity[0] / (14.0 * 9e-6) - 1.0).abs() < 1e-12);
+    assert!((sheet.twist_rigidity / (14.0 * 6e-6) - 1.0).abs() < 1e-12);
+    assert_eq!((sheet.damping, sheet.strain_limits), (0.01, Some([0.9, 1.1])));
+}
+
+#[test]
+fn the_record_of_an_elastic_fabric_means_the_same() {
+    let fabric = r#"{"elastic": {"density": 0.2, "membrane_stiffness": [400, 100],
+        "bending_rigidity": 4e-6}, "thicken": 2, "damping": 0.01}"#;
+    let record = &load_fabric(fabric).unwrap().resolved["fabrics"]["f"];
+    assert_eq!(elastic(&record.to_string()), elastic(fabric));
+}
+
+#[test]
+fn bad_elastic_fabrics_are_answered_with_the_place() {
+    let sheet = r#""density": 0.2, "membrane_stiffness": 100, "bending_rigidity": 1e-6"#;
+    let cases = [
+        (r#"{}"#.to_owned(), "fabrics.f needs a file, an elastic sheet, or its tables"),
+        (r#"{"elastic": {}}"#.to_owned(), "f.elastic needs membrane_stiffness, or young_modulus"),
+        (
+            r#"{"elastic": {"membrane_stiffness": 1}}"#.to_owned(),
+            "f.elastic needs bending_rigidity, or young_modulus and thickness",
+        ),
+        (
+            r#"{"elastic": {"young_modulus": 1e6, "thickness": 1e-3}}"#.to_owned(),
+            "f.elastic needs density",
+        ),
+        (
+            format!(r#"{{"elastic": {{{sheet}, "young_modulus": 1, "thickness": 1}}}}"#),
+            "f.elastic has both membrane_stiffness and young_modulus",
+        ),
+        (format!(r#"{{"elastic": {{{sheet}}}, "file": "a"}}"#), "f has both file and elastic"),
+        (format!(r#"{{"elastic": {{{sheet}}}, "density": 1}}"#), "has both elastic and density"),
+        (
+            format!(r#"{{"elastic": {{{sheet}, "poisson_ratio": 1}}}}"#),
+            "poisson_ratio is 1, but must be greater than -1 and less than 1",
+        ),
+        (
+            r#"{"elastic": {"membrane_stiffness": [1, 0]}}"#.to_owned(),
+            "elastic.membrane_stiffness.1 is 0, but must be greater than 0",
+        ),
+        (
+            r#"{"elastic": {"membrane_stiffness": [1, 2, 3]}}"#.to_owned(),
+            "a.json:1:46: expected a number or a list of two: [warp, weft]",
+        ),
+    ];
+    for (fabric, expected) in cases {
+        let error = load_fabric(&fabric).expect_err("the fabric is bad").to_string();
+        assert!(error.contains(expected), "{fabric}: {error}");
+    }
+}

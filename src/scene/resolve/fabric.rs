@@ -1,0 +1,225 @@
+//! Fabrics: tables, elastic sheets, and the factors on both.
+
+use serde::Deserialize;
+
+use super::limit::check;
+use super::{Limit, Resolver};
+use crate::scene::document::{Node, Value};
+use crate::scene::error::{LoadError, Problem, nearest};
+use crate::scene::fabric::{
+    homogeneous_bending_rigidity, isotropic_shear_stiffness, isotropic_twist_rigidity,
+};
+use crate::scene::native::{ElasticFile, FabricFile, WarpWeft};
+use crate::scene::{ElasticFabric, Fabric, MeasuredFabric};
+
+/// The tables of a material file.
+#[derive(Deserialize)]
+struct Tables {
+    density: f64,
+    stretching: [[f64; 4]; 6],
+    bending: [[f64; 5]; 3],
+}
+
+const TABLE_NAMES: [&str; 3] = ["density", "stretching", "bending"];
+
+/// That of most solids that are neither rubber nor cork.
+const POISSON_RATIO: f64 = 0.3;
+
+impl Resolver<'_> {
+    /// The fabric of a name that is written at `path`.
+    pub(super) fn fabric(&mut self, path: &str, name: &str) -> Result<Fabric, LoadError> {
+        let Some(file) = self.file.fabrics.get(name).cloned() else {
+            let nearest = nearest(name, self.file.fabrics.keys().map(String::as_str));
+            let problem = Problem::UnknownName { kind: "fabric", name: name.to_owned(), nearest };
+            return Err(problem.at(self.document.place_of(path)));
+        };
+        let path = format!("fabrics.{name}");
+        self.check_factors(&path, &file)?;
+        self.check_one_source(&path, &file)?;
+        if file.strain_limits.is_some() {
+            let warning = format!("{path}.strain_limits are kept but not enforced yet");
+            if !self.warnings.contains(&warning) {
+                self.warnings.push(warning);
+            }
+        }
+        let density = file.density_mult * file.thicken;
+        let stretching = file.stretching_mult * file.thicken;
+        let bending = file.bending_mult * file.thicken;
+        let (damping, strain_limits) = (file.damping, file.strain_limits);
+        if let Some(elastic) = &file.elastic {
+            let sheet = self.elastic(&format!("{path}.elastic"), elastic)?;
+            let sheet = sheet.scaled(density, stretching, bending);
+            return Ok(Fabric::Elastic(ElasticFabric { damping, strain_limits, ..sheet }));
+        }
+        let tables = match &file.file {
+            Some(relative) => self.tables_of_file(&path, relative)?,
+            None => self.inline_tables(&path, &file)?,
+        };
+        Ok(Fabric::Measured(MeasuredFabric {
+            density: tables.density * density,
+            stretching: tables.stretching.map(|row| row.map(|k| k * stretching)),
+            bending: tables.bending.map(|row| row.map(|k| k * bending)),
+            damping,
+            strain_limits,
+        }))
+    }
+
+    fn check_factors(&self, path: &str, file: &FabricFile) -> Result<(), LoadError> {
+        for (name, value, limit) in [
+            ("density_mult", file.density_mult, Limit::Positive),
+            ("stretching_mult", file.stretching_mult, Limit::Positive),
+            ("bending_mult", file.bending_mult, Limit::AtLeastZero),
+            ("thicken", file.thicken, Limit::Positive),
+            ("damping", file.damping, Limit::AtLeastZero),
+        ] {
+            self.check(&format!("{path}.{name}"), value, limit)?;
+        }
+        if let Some([least, largest]) = file.strain_limits {
+            self.check(&format!("{path}.strain_limits.0"), least, Limit::Share)?;
+            self.check(&format!("{path}.strain_limits.1"), largest, Limit::AtLeast(1.0))?;
+        }
+        Ok(())
+    }
+
+    /// A material file, an elastic sheet or tables: never two of them.
+    fn check_one_source(&self, path: &str, file: &FabricFile) -> Result<(), LoadError> {
+        let given = [
+            ("file", file.file.is_some()),
+            ("elastic", file.elastic.is_some()),
+            (TABLE_NAMES[0], file.density.is_some()),
+            (TABLE_NAMES[1], file.stretching.is_some()),
+            (TABLE_NAMES[2], file.bending.is_some()),
+        ];
+        let mut given = given.into_iter().filter_map(|(name, given)| given.then_some(name));
+        match (given.next(), given.next()) {
+            (Some(first), Some(second)) if !TABLE_NAMES.contains(&first) => {
+                Err(self.exclusive(path, first, second))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn elastic(&self, path: &str, file: &ElasticFile) -> Result<ElasticFabric, LoadError> {
+        self.check_elastic(path, file)?;
+        let poisson_ratio = file.poisson_ratio.unwrap_or(POISSON_RATIO);
+        let material = file.young_modulus.map(WarpWeft::values).zip(file.thickness);
+        let membrane_stiffness = match (file.membrane_stiffness, material) {
+            (Some(_), Some(_)) => {
+                return Err(self.exclusive(path, "membrane_stiffness", "young_modulus"));
+            }
+            (Some(stiffness), None) => stiffness.values(),
+            (None, Some((modulus, thickness))) => modulus.map(|e| e * thickness),
+            (None, None) => {
+                return Err(
+                    self.missing(path, "membrane_stiffness, or young_modulus and thickness")
+                );
+            }
+        };
+        let bending_rigidity = match (file.bending_rigidity, material) {
+            (Some(rigidity), _) => rigidity.values(),
+            (None, Some((modulus, thickness))) => {
+                modulus.map(|e| homogeneous_bending_rigidity(e, thickness, poisson_ratio))
+            }
+            (None, None) => {
+                return Err(self.missing(path, "bending_rigidity, or young_modulus and thickness"));
+            }
+        };
+        let density = file.density.ok_or_else(|| self.missing(path, "density"))?;
+        Ok(ElasticFabric {
+            density,
+            membrane_stiffness,
+            shear_stiffness: file
+                .shear_stiffness
+                .unwrap_or_else(|| isotropic_shear_stiffness(membrane_stiffness, poisson_ratio)),
+            poisson_ratio,
+            bending_rigidity,
+            twist_rigidity: file
+                .twist_rigidity
+                .unwrap_or_else(|| isotropic_twist_rigidity(bending_rigidity, poisson_ratio)),
+            damping: 0.0,
+            strain_limits: None,
+        })
+    }
+
+    fn check_elastic(&self, path: &str, file: &ElasticFile) -> Result<(), LoadError> {
+        for (name, value, limit) in [
+            ("density", file.density, Limit::Positive),
+            ("thickness", file.thickness, Limit::Positive),
+            ("shear_stiffness", file.shear_stiffness, Limit::AtLeastZero),
+            ("poisson_ratio", file.poisson_ratio, Limit::Between(-1.0, 1.0)),
+            ("twist_rigidity", file.twist_rigidity, Limit::AtLeastZero),
+        ] {
+            if let Some(value) = value {
+                self.check(&format!("{path}.{name}"), value, limit)?;
+            }
+        }
+        for (name, value, limit) in [
+            ("young_modulus", file.young_modulus, Limit::Positive),
+            ("membrane_stiffness", file.membrane_stiffness, Limit::Positive),
+            ("bending_rigidity", file.bending_rigidity, Limit::AtLeastZero),
+        ] {
+            let path = format!("{path}.{name}");
+            match value {
+                Some(WarpWeft::Same(value)) => self.check(&path, value, limit)?,
+                Some(WarpWeft::Each([warp, weft])) => {
+                    self.check(&format!("{path}.0"), warp, limit)?;
+                    self.check(&format!("{path}.1"), weft, limit)?;
+                }
+                None => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn missing(&self, path: &str, needed: &'static str) -> LoadError {
+        Problem::Missing { thing: path.to_owned(), needed }.at(self.document.place_of(path))
+    }
+
+    fn exclusive(&self, path: &str, first: &'static str, second: &'static str) -> LoadError {
+        let place = self.document.place_of(&format!("{path}.{second}"));
+        Problem::Exclusive { thing: path.to_owned(), first, second }.at(place)
+    }
+
+    fn inline_tables(&self, path: &str, file: &FabricFile) -> Result<Tables, LoadError> {
+        if file.density.is_none() && file.stretching.is_none() && file.bending.is_none() {
+            return Err(self.missing(path, "a file, an elastic sheet, or its tables"));
+        }
+        let tables = Tables {
+            density: file.density.ok_or_else(|| self.missing(path, "a file, or its density"))?,
+            stretching: file
+                .stretching
+                .ok_or_else(|| self.missing(path, "a file, or its stretching"))?,
+            bending: file.bending.ok_or_else(|| self.missing(path, "a file, or its bending"))?,
+        };
+        check_tables(self.document, &format!("{path}."), &tables)?;
+        Ok(tables)
+    }
+
+    fn tables_of_file(&mut self, path: &str, relative: &str) -> Result<Tables, LoadError> {
+        let (file, text) = self.text_at(&format!("{path}.file"), relative)?;
+        let document = Node::parse(&file.to_string_lossy(), &text)?;
+        if let Value::Object(members) = &document.value {
+            for member in members.iter().filter(|m| !TABLE_NAMES.contains(&m.name.as_str())) {
+                self.warnings.push(format!("{}: {:?} is not used", member.place, member.name));
+            }
+        }
+        let tables: Tables = document.deserialize()?;
+        check_tables(&document, "", &tables)?;
+        Ok(tables)
+    }
+}
+
+fn check_tables(document: &Node, prefix: &str, tables: &Tables) -> Result<(), LoadError> {
+    check(document, &format!("{prefix}density"), tables.density, Limit::Positive)?;
+    for (i, row) in tables.stretching.iter().enumerate() {
+        for (j, &value) in row.iter().enumerate() {
+            check(document, &format!("{prefix}stretching.{i}.{j}"), value, Limit::Finite)?;
+        }
+    }
+    for (i, row) in tables.bending.iter().enumerate() {
+        for (j, &value) in row.iter().enumerate() {
+            check(document, &format!("{prefix}bending.{i}.{j}"), value, Limit::AtLeastZero)?;
+        }
+    }
+    Ok(())
+}
