@@ -2,33 +2,61 @@
 
 use glam::{DMat3, DVec3};
 
-use super::bending::{Hinge, dihedral};
-use super::breakaway::Finding;
+use super::bending::{Dihedral, Hinge, dihedral, dihedral_angle, turn};
 use super::contact::{ContactPoint, ContactResponse};
-use super::damping::Lead;
+use super::damping::Viscosity;
 use super::handles::HandleSpring;
+use super::iterate::Iterate;
 use super::matrix::BlockMatrix;
-use super::step::{StepForces, StepOutcome, StepState};
+use super::step::{StepForces, StepState};
 use super::stretch::MembraneTangent;
 use super::system::{HingeSlots, System};
 use super::{outer, wind};
 use crate::scene::Air;
 
 impl System {
-    /// Fills matrix and right side: (M + h^2 K + h beta K_m + h D) dv = h (f - (h K + beta K_m) v),
-    /// at the stiffness last frozen. The outcome counts what took no part.
-    pub fn assemble(&mut self, state: &StepState, forces: &StepForces<'_>, dt: f64) -> StepOutcome {
+    /// Fills matrix A and right side b for the velocity change of a step, A dv = b, linearised
+    /// where the step starts, at the stiffness last frozen and without contacts:
+    /// (M + h (h + beta) K_m + h^2 K_g + h D) dv = h (f - (h K + beta K_m) v).
+    ///
+    /// Returns the number of hinges that have no angle and took no part.
+    pub fn assemble(&mut self, state: &StepState, forces: &StepForces<'_>, dt: f64) -> usize {
         self.make_room_for(forces.contacts);
+        let degenerate_hinges = self.assemble_at(&Iterate::at_start(state), state, forces, dt);
+        self.refer_to(&state.velocity);
+        degenerate_hinges
+    }
+
+    /// Fills the matrix with the tangent at an iterate of a step's end, and the right side with
+    /// what is out of balance there (N s): h f + m (v_0 + h g - v), contacts left out.
+    ///
+    /// Returns the number of hinges that have no angle and took no part.
+    pub(super) fn assemble_at(
+        &mut self,
+        iterate: &Iterate,
+        start: &StepState,
+        forces: &StepForces<'_>,
+        dt: f64,
+    ) -> usize {
         self.matrix.set_zero();
-        self.add_inertia(forces.gravity, dt);
-        self.add_stretch(state, dt);
-        let degenerate_hinges = self.add_bending(state, dt);
+        self.touched.clear();
+        self.add_inertia(iterate, start, forces.gravity, dt);
+        self.add_stretch(iterate, start, dt);
+        let degenerate_hinges = self.add_bending(iterate, start, dt);
         if wind::is_felt(&forces.air) {
-            self.add_wind(state, &forces.air, dt);
+            self.add_wind(iterate, start, &forces.air, dt);
         }
-        self.add_handles(state, forces.handles, dt);
-        let active_contacts = self.add_contacts(state, forces, dt);
-        StepOutcome { degenerate_hinges, active_contacts }
+        self.add_handles(iterate, forces.handles, dt);
+        degenerate_hinges
+    }
+
+    /// Makes the right side that of the change from `velocities`, when it was linearised at rest:
+    /// b - A v.
+    fn refer_to(&mut self, velocities: &[DVec3]) {
+        self.matrix.product_into(velocities, &mut self.product);
+        for (b, product) in self.right_side.iter_mut().zip(&self.product) {
+            *b -= *product;
+        }
     }
 
     /// The matrix and right side last assembled.
@@ -37,7 +65,7 @@ impl System {
     }
 
     /// Lets the pattern stand if it has a block for every pair of nodes in contact.
-    fn make_room_for(&mut self, contacts: &[ContactPoint]) {
+    pub(super) fn make_room_for(&mut self, contacts: &[ContactPoint]) {
         let pattern = self.matrix.pattern();
         if !contacts.iter().flat_map(node_pairs).all(|[a, b]| pattern.slot(a, b).is_some()) {
             let pairs: Vec<_> = contacts.iter().flat_map(node_pairs).collect();
@@ -45,33 +73,34 @@ impl System {
         }
     }
 
-    fn add_inertia(&mut self, gravity: DVec3, dt: f64) {
+    fn add_inertia(&mut self, iterate: &Iterate, start: &StepState, gravity: DVec3, dt: f64) {
         for (node, &mass) in self.masses.iter().enumerate() {
             let slot = self.matrix.pattern().diagonal_slot(node);
             self.matrix.add(slot, DMat3::from_diagonal(DVec3::splat(mass)));
-            self.right_side[node] = gravity * (mass * dt);
+            let change = iterate.velocity[node] - start.velocity[node];
+            self.right_side[node] = (gravity * dt - change) * mass;
         }
     }
 
-    fn add_stretch(&mut self, state: &StepState, dt: f64) {
+    fn add_stretch(&mut self, iterate: &Iterate, start: &StepState, dt: f64) {
         for garment in &self.garments {
-            let lead = Lead::new(dt, garment.fabric.damping());
-            let (material, geometric) = (dt * lead.material, dt * lead.geometric);
+            let viscosity = Viscosity::new(garment.fabric.damping(), dt);
             for index in garment.membranes.clone() {
                 let face = &self.membranes[index];
-                let deformation = face.gradient_of(&state.position);
-                let tangent =
+                let deformation = face.gradient_of(&iterate.position);
+                let mut tangent =
                     MembraneTangent::new(face.area, self.frozen.stretch[index], deformation);
-                let now = tangent.force_density();
-                let ahead = tangent.led_force_density(face.gradient_of(&state.velocity), lead);
+                if viscosity.is_felt() {
+                    tangent = tangent.damped(viscosity, face.strain(&start.position));
+                }
+                let density = tangent.force_density();
                 for (node, &g) in face.nodes.iter().zip(&face.gradients) {
-                    let force = now.mul_vec2(g) + ahead.mul_vec2(g);
-                    self.right_side[*node as usize] += force * dt;
+                    self.right_side[*node as usize] += density.mul_vec2(g) * dt;
                 }
                 let mut slots = self.membrane_slots[index].into_iter();
                 for (k, &gk) in face.gradients.iter().enumerate() {
                     for (&gl, slot) in face.gradients[k..].iter().zip(&mut slots) {
-                        self.matrix.add(slot, tangent.block(gk, gl, material, geometric));
+                        self.matrix.add(slot, tangent.block(gk, gl) * (dt * dt));
                     }
                 }
             }
@@ -79,35 +108,37 @@ impl System {
     }
 
     /// Returns how many hinges have no angle.
-    fn add_bending(&mut self, state: &StepState, dt: f64) -> usize {
+    fn add_bending(&mut self, iterate: &Iterate, start: &StepState, dt: f64) -> usize {
         let mut degenerate = 0;
         for garment in &self.garments {
-            let lead = Lead::new(dt, garment.fabric.damping());
+            let viscosity = Viscosity::new(garment.fabric.damping(), dt);
             for index in garment.hinges.clone() {
                 let hinge = &self.hinges[index];
-                let Some(push) = HingePush::new(hinge, self.frozen.bending[index], state, lead)
-                else {
+                let Some(now) = dihedral(hinge.corners(&iterate.position)) else {
                     degenerate += 1;
                     continue;
                 };
+                let stiffness = 2.0 * self.frozen.bending[index] * hinge.shape;
+                let push = HingePush::new(hinge, now, stiffness, viscosity, start);
                 for (node, &gradient) in hinge.nodes.iter().zip(&push.gradients) {
                     self.right_side[*node as usize] += gradient * (push.moment * dt);
                 }
-                let scale = push.stiffness * dt * lead.material;
+                let scale = push.stiffness * dt * dt;
                 push.scatter(scale, self.hinge_slots[index], &mut self.matrix);
             }
         }
         degenerate
     }
 
-    fn add_wind(&mut self, state: &StepState, air: &Air, dt: f64) {
+    /// The drag is linearised where the step starts, at every iterate.
+    fn add_wind(&mut self, iterate: &Iterate, start: &StepState, air: &Air, dt: f64) {
         for (face, slots) in self.membranes.iter().zip(&self.membrane_slots) {
-            let [a, b, c] = face.nodes.map(|n| state.position[n as usize]);
-            let velocity =
-                face.nodes.map(|n| state.velocity[n as usize]).iter().sum::<DVec3>() / 3.0;
-            let drag = wind::drag(air, (b - a).cross(c - a), velocity);
+            let drag = wind::drag_on(face.nodes, start, air);
+            let change =
+                wind::mean(face.nodes, &iterate.velocity) - wind::mean(face.nodes, &start.velocity);
+            let force = drag.force - drag.damping * change;
             for node in face.nodes {
-                self.right_side[node as usize] += drag.force * (dt / 3.0);
+                self.right_side[node as usize] += force * (dt / 3.0);
             }
             // A third of the force on each corner, by the mean of three velocities.
             let block = drag.damping * (dt / 9.0);
@@ -117,77 +148,72 @@ impl System {
         }
     }
 
-    fn add_handles(&mut self, state: &StepState, handles: &[HandleSpring], dt: f64) {
+    fn add_handles(&mut self, iterate: &Iterate, handles: &[HandleSpring], dt: f64) {
         for spring in handles {
-            let ahead = state.velocity[spring.node] * (dt * spring.stiffness);
-            let force = spring.force(state.position[spring.node]) - ahead;
-            self.right_side[spring.node] += force * dt;
+            self.right_side[spring.node] += spring.force(iterate.position[spring.node]) * dt;
             let slot = self.matrix.pattern().diagonal_slot(spring.node);
             self.matrix.add(slot, DMat3::IDENTITY * (dt * dt * spring.stiffness));
         }
     }
 
-    /// Returns how many contacts act.
-    fn add_contacts(&mut self, state: &StepState, forces: &StepForces<'_>, dt: f64) -> usize {
-        let mut active = 0;
-        for (index, contact) in forces.contacts.iter().enumerate() {
-            let Some(mut response) = self.response(contact, state, forces, dt) else { continue };
-            match self.findings.get(index).unwrap_or(&Finding::AsTaken) {
-                Finding::AsTaken => {}
-                Finding::Sliding(force) => {
-                    response = response.with_friction(contact.normal, *force);
-                }
-                Finding::Open => continue,
-            }
-            active += 1;
+    /// Adds what contacts do, given at the velocities that the right side refers to.
+    pub(super) fn add_contacts<'a>(
+        &mut self,
+        responses: impl Iterator<Item = (&'a ContactPoint, ContactResponse)>,
+        dt: f64,
+    ) {
+        for (contact, response) in responses {
             for (k, (node, weight)) in contact.weights().enumerate() {
                 self.right_side[node] += response.force * (weight * dt);
                 for (other, factor) in contact.weights().skip(k) {
                     let pattern = self.matrix.pattern();
                     let slot = pattern.slot(node as u32, other as u32);
                     let slot = slot.expect("the pattern has room for every contact");
+                    self.touched.push((slot, self.matrix.blocks()[slot as usize]));
                     self.matrix.add(slot, response.tangent * (weight * factor * dt));
                 }
             }
         }
-        active
     }
 
-    /// A contact's response at the start of a step; `None` if it will be open.
-    pub(super) fn response(
-        &self,
-        contact: &ContactPoint,
-        state: &StepState,
-        forces: &StepForces<'_>,
-        dt: f64,
-    ) -> Option<ContactResponse> {
-        let velocity = contact.weighted_sum(&state.velocity);
-        let mass = contact.effective_mass(&self.masses);
-        // A contact between points of cloth falls as a whole.
-        let weight_sum: f64 = contact.weights().map(|(_, weight)| weight).sum();
-        contact.response(velocity, forces.gravity * weight_sum, mass, dt)
+    /// Takes all contacts out of the matrix again, to the bit.
+    pub(super) fn remove_contacts(&mut self) {
+        while let Some((slot, block)) = self.touched.pop() {
+            self.matrix.set(slot, block);
+        }
     }
 }
 
 /// What a hinge adds to a step.
 struct HingePush {
     gradients: [DVec3; 4],
-    /// -dW/dtheta at the lead (N m).
+    /// -dW/dtheta (N m).
     moment: f64,
     /// d2W/dtheta2 (N m).
     stiffness: f64,
 }
 
 impl HingePush {
-    /// W = k shape (theta - theta_0)^2; its tangent keeps dtheta dtheta^T and drops the second
-    /// derivative of theta (Gauss-Newton), which is exact at rest and never indefinite.
-    fn new(hinge: &Hinge, k: f64, state: &StepState, lead: Lead) -> Option<Self> {
-        let now = dihedral(hinge.corners(&state.position))?;
-        let velocities = hinge.corners(&state.velocity);
-        let rate: f64 = now.gradients.iter().zip(velocities).map(|(g, v)| g.dot(v)).sum();
-        let stiffness = 2.0 * k * hinge.shape;
-        let moment = -stiffness * (hinge.fold(now.angle) + lead.material * rate);
-        Some(Self { gradients: now.gradients, moment, stiffness })
+    /// W = k shape ((theta - theta_rest)^2 + ratio (theta - theta_start)^2); its tangent keeps
+    /// dtheta dtheta^T and drops the second derivative of theta (Gauss-Newton), which is exact at
+    /// rest and never indefinite. `stiffness` is 2 k shape (N m).
+    fn new(
+        hinge: &Hinge,
+        now: Dihedral,
+        stiffness: f64,
+        viscosity: Viscosity,
+        start: &StepState,
+    ) -> Self {
+        let at_start = match viscosity.is_felt() {
+            true => dihedral_angle(hinge.corners(&start.position)),
+            false => None,
+        };
+        let since = at_start.map_or(0.0, |angle| turn(angle, now.angle));
+        Self {
+            gradients: now.gradients,
+            moment: -stiffness * (hinge.fold(now.angle) + viscosity.ratio * since),
+            stiffness: stiffness * (1.0 + viscosity.ratio),
+        }
     }
 
     fn scatter(&self, scale: f64, slots: HingeSlots, matrix: &mut BlockMatrix) {

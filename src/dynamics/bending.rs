@@ -44,8 +44,7 @@ impl Hinge {
     /// An edge that rests at 170 degrees can thus be folded to 190 although dihedral angles end at
     /// 180.
     pub fn fold(&self, angle: f64) -> f64 {
-        let fold = angle - self.rest_angle;
-        if fold > PI || fold <= -PI { fold - TAU * ((fold - PI) / TAU).ceil() } else { fold }
+        turn(self.rest_angle, angle)
     }
 
     /// W = k shape (theta - theta_0)^2 (J), k in N m, frozen
@@ -68,6 +67,12 @@ impl Hinge {
             None => own,
         }
     }
+}
+
+/// The way from one angle to another, by whole turns the shortest (rad), in (-pi, pi].
+pub fn turn(from: f64, to: f64) -> f64 {
+    let way = to - from;
+    if way > PI || way <= -PI { way - TAU * ((way - PI) / TAU).ceil() } else { way }
 }
 
 /// A dihedral angle and how it follows its four nodes.

@@ -8,6 +8,7 @@
 
 use glam::DVec3;
 
+use super::contact::{ContactPoint, ContactResponse};
 use super::step::{StepForces, StepState};
 use super::system::System;
 
@@ -36,8 +37,44 @@ const EXCESS_SHARE: f64 = 2e-3;
 pub(super) const CORRECTIONS_MAX: usize = 2;
 
 impl System {
-    /// Notes the contacts that the solution (velocity changes in the right side) finds torn or
-    /// lifted off; true if the step should be solved again.
+    /// The contacts that push in a step, each with its response at the velocities of the start and
+    /// as it has been found so far.
+    pub(super) fn found_responses<'a>(
+        &self,
+        state: &StepState,
+        forces: &StepForces<'a>,
+        dt: f64,
+    ) -> Vec<(&'a ContactPoint, ContactResponse)> {
+        let found = |(index, contact): (usize, &'a ContactPoint)| {
+            let response = self.response(contact, state, forces, dt)?;
+            match self.findings.get(index).unwrap_or(&Finding::AsTaken) {
+                Finding::AsTaken => Some((contact, response)),
+                Finding::Sliding(force) => {
+                    Some((contact, response.with_friction(contact.normal, *force)))
+                }
+                Finding::Open => None,
+            }
+        };
+        forces.contacts.iter().enumerate().filter_map(found).collect()
+    }
+
+    /// A contact's response at the start of a step; `None` if it will be open.
+    fn response(
+        &self,
+        contact: &ContactPoint,
+        state: &StepState,
+        forces: &StepForces<'_>,
+        dt: f64,
+    ) -> Option<ContactResponse> {
+        let velocity = contact.weighted_sum(&state.velocity);
+        let mass = contact.effective_mass(&self.masses);
+        // A contact between points of cloth falls as a whole.
+        let weight_sum: f64 = contact.weights().map(|(_, weight)| weight).sum();
+        contact.response(velocity, forces.gravity * weight_sum, mass, dt)
+    }
+
+    /// Notes the contacts that the solution (`change`) finds torn or lifted off; true if the step
+    /// should be solved again.
     pub(super) fn examine_contacts(
         &mut self,
         state: &StepState,
@@ -48,7 +85,7 @@ impl System {
         let mut findings = vec![Finding::AsTaken; forces.contacts.len()];
         for (index, contact) in forces.contacts.iter().enumerate() {
             let Some(response) = self.response(contact, state, forces, dt) else { continue };
-            let change = contact.weighted_sum(&self.right_side);
+            let change = contact.weighted_sum(&self.change);
             let force = response.force - response.tangent * change;
             let normal = force.dot(contact.normal);
             let held = force - contact.normal * normal;

@@ -96,6 +96,72 @@ impl ContactPoint {
     }
 }
 
+/// A contact at an iterate of a step's end. The pressure that friction counts on is held while the
+/// energy is searched along a direction, and set anew for the next one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IteratedContact {
+    /// The normal force that friction counts on (N).
+    pub pressure: f64,
+    /// What the contact has to move (kg).
+    pub mass: f64,
+}
+
+impl IteratedContact {
+    /// The gap at the end of the step (m): gap + h n.(v - v_s).
+    fn gap(contact: &ContactPoint, velocity: DVec3, dt: f64) -> f64 {
+        contact.gap + dt * (velocity - contact.surface_velocity).dot(contact.normal)
+    }
+
+    fn slip(contact: &ContactPoint, velocity: DVec3) -> DVec3 {
+        let relative = velocity - contact.surface_velocity;
+        relative - contact.normal * relative.dot(contact.normal)
+    }
+
+    /// The contact at an iterate whose contact point has a velocity, its pressure that of the
+    /// penalty there.
+    pub fn at(contact: &ContactPoint, velocity: DVec3, mass: f64, dt: f64) -> Self {
+        let pressure = contact.stiffness * (-Self::gap(contact, velocity, dt)).max(0.0);
+        Self { pressure, mass }
+    }
+
+    /// Force and tangent at the same velocity; `None` where the gap is open: there is no pressure
+    /// to rub either.
+    pub fn response(
+        &self,
+        contact: &ContactPoint,
+        velocity: DVec3,
+        dt: f64,
+    ) -> Option<ContactResponse> {
+        let gap = Self::gap(contact, velocity, dt);
+        if gap >= 0.0 {
+            return None;
+        }
+        let slip = Self::slip(contact, velocity);
+        let c = friction_coefficient(contact.friction, self.pressure, slip.length(), self.mass, dt);
+        let projector = outer(contact.normal, contact.normal);
+        Some(ContactResponse {
+            force: contact.normal * (-contact.stiffness * gap) - c * slip,
+            tangent: projector * (dt * contact.stiffness) + (DMat3::IDENTITY - projector) * c,
+        })
+    }
+
+    /// 1/2 k min(0, gap)^2 + h P(slip) (J), with P(s) the potential of friction: 1/2 c s^2 while the
+    /// point sticks with c = r m / h, and mu N (s - s_0 / 2) beyond s_0 = mu N / c.
+    pub fn energy(&self, contact: &ContactPoint, velocity: DVec3, dt: f64) -> f64 {
+        let depth = (-Self::gap(contact, velocity, dt)).max(0.0);
+        let slip = Self::slip(contact, velocity).length();
+        let limit = contact.friction * self.pressure;
+        let sticking = STICKING_RATIO * self.mass / dt;
+        let first_slip = limit / sticking;
+        let friction = if slip <= first_slip {
+            0.5 * sticking * slip * slip
+        } else {
+            limit * (slip - 0.5 * first_slip)
+        };
+        0.5 * contact.stiffness * depth * depth + dt * friction
+    }
+}
+
 impl ContactResponse {
     /// The same normal response with a friction that is known (N), across the normal.
     pub fn with_friction(self, normal: DVec3, friction: DVec3) -> Self {

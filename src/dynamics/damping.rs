@@ -1,23 +1,25 @@
-//! Stiffness-proportional damping, folded into the moment at which elastic forces are taken.
+//! Stiffness-proportional damping, as a potential of what a step changes.
 
-/// How far beyond the start of a step the elastic forces of a garment are taken (s).
+/// How strongly a step resists the strain it adds.
 ///
-/// The force of a backward Euler step with Rayleigh damping is
-/// f(x + h v', v') ~ f(x) - h (K_m + K_g) v' - beta K_m v' at the new velocity v'
-/// ([`BW98`](crate::papers::BW98)). The part K_m, which is a stiffness times squares of strain
-/// gradients, is therefore taken h + beta ahead and the part K_g, which is the present stress times
-/// second derivatives of strain, h ahead. K_g is left undamped on purpose: it answers to rigid
-/// rotations, and damping it would slow a taut cloth that merely turns.
+/// Rayleigh damping dissipates beta/2 dE/dt : C : dE/dt. Over a step of h the rate is
+/// (E - E_0) / h, so the force of the step is minus the gradient of
+/// W(x) + beta / (2 h) (E - E_0) : C : (E - E_0): an energy like any other, with which line searches
+/// work. Strain does not see rigid rotations: a taut cloth that merely turns is not slowed, as
+/// it would be by damping the geometric stiffness ([`BW98`](crate::papers::BW98)).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lead {
-    /// h + beta.
-    pub material: f64,
-    /// h.
-    pub geometric: f64,
+pub struct Viscosity {
+    /// beta / h.
+    pub ratio: f64,
 }
 
-impl Lead {
-    pub fn new(dt: f64, damping: f64) -> Self {
-        Self { material: dt + damping, geometric: dt }
+impl Viscosity {
+    /// Of a damping beta (s) over a step of `dt` (s).
+    pub fn new(damping: f64, dt: f64) -> Self {
+        Self { ratio: damping / dt }
+    }
+
+    pub fn is_felt(self) -> bool {
+        self.ratio > 0.0
     }
 }

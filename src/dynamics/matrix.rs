@@ -136,20 +136,38 @@ impl BlockMatrix {
         self.blocks[slot as usize] += block;
     }
 
+    /// Replaces the block at a slot.
+    pub fn set(&mut self, slot: u32, block: DMat3) {
+        self.blocks[slot as usize] = block;
+    }
+
     /// A x.
     pub fn product(&self, x: &[DVec3]) -> Vec<DVec3> {
-        let mut y = vec![DVec3::ZERO; x.len()];
-        for row in 0..self.pattern.node_count() {
-            for (slot, &col) in self.pattern.row_range(row).zip(self.pattern.row(row)) {
-                let (block, col) = (self.blocks[slot], col as usize);
-                y[row] += block * x[col];
-                if col != row {
-                    y[col] += block.transpose() * x[row];
-                }
-            }
-        }
+        let mut y = Vec::new();
+        self.product_into(x, &mut y);
         y
     }
+
+    /// y = A x, one pass over the lower triangle.
+    pub fn product_into(&self, x: &[DVec3], y: &mut Vec<DVec3>) {
+        y.clear();
+        y.resize(x.len(), DVec3::ZERO);
+        for row in 0..self.pattern.node_count() {
+            let range = self.pattern.row_range(row);
+            let (below, columns) = (range.start..range.end - 1, self.pattern.row(row));
+            let mut sum = self.blocks[range.end - 1] * x[row];
+            for (block, &col) in self.blocks[below].iter().zip(columns) {
+                sum += *block * x[col as usize];
+                y[col as usize] += transposed_product(block, x[row]);
+            }
+            y[row] += sum;
+        }
+    }
+}
+
+/// B^T x.
+fn transposed_product(block: &DMat3, x: DVec3) -> DVec3 {
+    DVec3::new(block.x_axis.dot(x), block.y_axis.dot(x), block.z_axis.dot(x))
 }
 
 #[cfg(test)]

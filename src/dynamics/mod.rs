@@ -1,7 +1,10 @@
 //! How cloth moves: energies, their derivatives, and one implicit step.
 //!
-//! A step is one linearised backward Euler step ([`BW98`](crate::papers::BW98)):
-//! (M + h^2 K + h beta K_m + h D) dv = h (f - (h K + beta K_m) v), then v += dv, x += h v.
+//! A step is a backward Euler step: its end minimises an incremental potential. Linearised once it is
+//! that of [`BW98`](crate::papers::BW98):
+//! (M + h (h + beta) K_m + h^2 K_g + h D) dv = h (f - (h K + beta K_m) v), then v += dv, x += h v;
+//! iterated ([`Dynamics::iterations`](crate::scene::Dynamics)) it is Newton's method with a line
+//! search.
 //! [`System`] holds what stays while the meshes stay; [`stretch`], [`bending`], [`wind`],
 //! [`handles`] and [`contact`] each state a force and a positive semi-definite tangent, so that the
 //! matrix is positive definite whatever the state; [`solve`] factorises it.
@@ -11,8 +14,13 @@ pub mod bending;
 mod breakaway;
 pub mod contact;
 pub mod damping;
+mod energy;
 pub mod handles;
+mod iterate;
 pub mod matrix;
+mod newton;
+#[cfg(test)]
+mod newton_tests;
 mod permuted;
 pub mod solve;
 mod step;
@@ -27,7 +35,7 @@ pub mod wind;
 pub use contact::ContactPoint;
 pub use handles::HandleSpring;
 pub use solve::{LinearSolver, SolveError};
-pub use step::{StepError, StepForces, StepOutcome, StepState};
+pub use step::{Convergence, StepError, StepForces, StepOutcome, StepState};
 pub use system::System;
 
 use glam::{DMat3, DVec3};

@@ -1,4 +1,8 @@
 //! One implicit step: all of it happens, or nothing.
+//!
+//! The velocity v at the end of the step minimises the incremental potential
+//! ([`incremental_energy`](super::energy)); its linearisation at rest, where the step starts, is the
+//! step of [`BW98`](crate::papers::BW98).
 
 use glam::DVec3;
 use thiserror::Error;
@@ -6,6 +10,7 @@ use thiserror::Error;
 use super::breakaway::CORRECTIONS_MAX;
 use super::contact::ContactPoint;
 use super::handles::HandleSpring;
+use super::iterate::Iterate;
 use super::solve::SolveError;
 use super::system::System;
 use crate::mesh::Mesh;
@@ -39,6 +44,23 @@ pub struct StepOutcome {
     pub degenerate_hinges: usize,
     /// Contacts that pushed.
     pub active_contacts: usize,
+    /// Linear systems solved.
+    pub solutions: usize,
+    pub convergence: Convergence,
+}
+
+/// How the iterations of a step ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Convergence {
+    /// One linearised step was asked for, and taken.
+    #[default]
+    NotAsked,
+    /// The last iteration changed no velocity by more than the tolerance.
+    Reached,
+    /// The iterations were used up.
+    IterationsUsedUp,
+    /// No share of the last direction lowered the energy any more.
+    Stalled,
 }
 
 /// Why a step was not taken. A shorter step may be.
@@ -95,7 +117,8 @@ impl StepState {
 }
 
 impl System {
-    /// Advances by `dt` (s): one linearised backward Euler step at the stiffness of its start.
+    /// Advances by `dt` (s): one backward Euler step at the stiffness of its start, linearised or
+    /// iterated as [`Dynamics`](crate::scene::Dynamics) asks.
     ///
     /// # Errors
     /// If something is not finite, or the matrix not positive definite. The state is then as it was.
@@ -130,36 +153,63 @@ impl System {
         assert_eq!(state.position.len(), self.node_count(), "positions are those of the system");
         assert_eq!(state.velocity.len(), self.node_count(), "velocities are those of the system");
         state.check_finite()?;
-        self.findings.clear();
-        let mut outcome = self.solve_step(state, forces, dt)?;
-        for _ in 0..CORRECTIONS_MAX {
-            if !self.examine_contacts(state, forces, dt) {
-                break;
-            }
-            outcome = self.solve_step(state, forces, dt)?;
-        }
+        let (end, outcome) = match self.settings.iterations {
+            0 | 1 => self.linearised_step(state, forces, dt)?,
+            _ => self.iterated_step(state, forces, dt)?,
+        };
         // Checked before anything is written.
-        finite("velocity after the step", &self.right_side)?;
-        for ((x, v), dv) in state.position.iter_mut().zip(&mut state.velocity).zip(&self.right_side)
-        {
-            *v += dv;
-            *x += *v * dt;
-        }
+        finite("velocity after the step", &end.velocity)?;
+        *state = StepState { position: end.position, velocity: end.velocity };
+        state.check_finite()?;
         Ok(outcome)
     }
 
-    /// Leaves the velocity changes of one linear solution in the right side (m/s).
-    fn solve_step(
+    /// One linear solution, and again for contacts that are not what they were taken for.
+    fn linearised_step(
         &mut self,
-        state: &StepState,
+        start: &StepState,
         forces: &StepForces<'_>,
         dt: f64,
-    ) -> Result<StepOutcome, StepError> {
-        let outcome = self.assemble(state, forces, dt);
+    ) -> Result<(Iterate, StepOutcome), StepError> {
+        self.findings.clear();
+        let degenerate_hinges = self.assemble(start, forces, dt);
+        let free_side = self.right_side.clone();
+        let mut active_contacts = self.solve_with_contacts(start, forces, dt)?;
+        let mut solutions = 1;
+        while solutions <= CORRECTIONS_MAX && self.examine_contacts(start, forces, dt) {
+            self.remove_contacts();
+            self.right_side.copy_from_slice(&free_side);
+            active_contacts = self.solve_with_contacts(start, forces, dt)?;
+            solutions += 1;
+        }
+        let convergence = Convergence::NotAsked;
+        let outcome = StepOutcome { degenerate_hinges, active_contacts, solutions, convergence };
+        let begun = Iterate { position: Vec::new(), velocity: start.velocity.clone() };
+        Ok((begun.moved(&self.change, 1.0, start, dt), outcome))
+    }
+
+    /// Leaves in `change` the velocity changes (m/s) that the contacts allow as they are found;
+    /// returns how many push.
+    pub(super) fn solve_with_contacts(
+        &mut self,
+        start: &StepState,
+        forces: &StepForces<'_>,
+        dt: f64,
+    ) -> Result<usize, StepError> {
+        let responses = self.found_responses(start, forces, dt);
+        let active = responses.len();
+        self.add_contacts(responses.into_iter(), dt);
+        self.solve_change()?;
+        Ok(active)
+    }
+
+    /// Solves the system last assembled for `change`.
+    pub(super) fn solve_change(&mut self) -> Result<(), StepError> {
         finite("force", &self.right_side)?;
         self.solver.factorize(&self.matrix)?;
-        self.solver.solve(&mut self.right_side);
-        Ok(outcome)
+        self.change.clone_from(&self.right_side);
+        self.solver.solve(&mut self.change);
+        Ok(())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::damping::Lead;
+use super::damping::Viscosity;
 use super::outer;
 use crate::math::{Mat3x2, SymTensor2};
 use crate::scene::StretchStiffness;
@@ -26,7 +26,12 @@ impl Membrane {
 
     /// A psi(E) (J).
     pub fn energy(&self, stiffness: StretchStiffness, positions: &[DVec3]) -> f64 {
-        self.area * energy_density(stiffness, green_strain(self.gradient_of(positions)))
+        self.area * energy_density(stiffness, self.strain(positions))
+    }
+
+    /// E at positions.
+    pub fn strain(&self, positions: &[DVec3]) -> SymTensor2 {
+        green_strain(self.gradient_of(positions))
     }
 }
 
@@ -71,6 +76,8 @@ pub struct MembraneTangent {
     stress: SymTensor2,
     pulling_stress: SymTensor2,
     stiffness: StretchStiffness,
+    /// What the material part of the tangent is multiplied by.
+    material: f64,
     squares: [DMat3; 4],
 }
 
@@ -84,8 +91,19 @@ impl MembraneTangent {
             stress,
             pulling_stress: pulling_part(stress),
             stiffness: bounded(k),
+            material: 1.0,
             squares: [outer(fu, fu), outer(fv, fv), outer(fu, fv), outer(fv, fu)],
         }
+    }
+
+    /// Adds the stress of a viscosity against the strain since the start of the step:
+    /// S + ratio C (E - E_0), and the material part of the tangent grows by 1 + ratio.
+    pub fn damped(mut self, viscosity: Viscosity, strain_at_start: SymTensor2) -> Self {
+        let increment = green_strain(self.deformation) - strain_at_start;
+        self.stress += stress(self.stiffness, increment) * viscosity.ratio;
+        self.pulling_stress = pulling_part(self.stress);
+        self.material = 1.0 + viscosity.ratio;
+        self
     }
 
     /// -A dpsi/dF = -A F S (N m): the force on a corner is this times the corner's gradient.
@@ -93,42 +111,19 @@ impl MembraneTangent {
         times(self.deformation, self.stress, -self.area)
     }
 
-    /// What `lead` adds to [`force_density`](Self::force_density) at velocity gradient dF/dt:
-    /// -A [ lead_material F C(dE/dt) + lead_geometric dF/dt S+ ].
-    pub fn led_force_density(&self, velocity_gradient: Mat3x2, lead: Lead) -> Mat3x2 {
-        let strain_rate = strain_rate(self.deformation, velocity_gradient);
-        let rate = stress(self.stiffness, strain_rate);
-        let material = times(self.deformation, rate, -self.area * lead.material);
-        let geometric = times(velocity_gradient, self.pulling_stress, -self.area * lead.geometric);
-        Mat3x2 {
-            x_axis: material.x_axis + geometric.x_axis,
-            y_axis: material.y_axis + geometric.y_axis,
-        }
-    }
-
-    /// The block of corners with gradients g_i and g_j: material part times `material`, geometric
-    /// part times `geometric` (N/m if both are 1).
-    pub fn block(&self, gi: DVec2, gj: DVec2, material: f64, geometric: f64) -> DMat3 {
+    /// The block of corners with gradients g_i and g_j (N/m).
+    pub fn block(&self, gi: DVec2, gj: DVec2) -> DMat3 {
         let k = self.stiffness;
         let shear = 0.5 * k.shear;
-        let scale = self.area * material;
+        let scale = self.area * self.material;
         let [uu, vv, uv, vu] = self.squares;
         uu * (scale * (k.uu * gi.x * gj.x + shear * gi.y * gj.y))
             + vv * (scale * (k.vv * gi.y * gj.y + shear * gi.x * gj.x))
             + uv * (scale * (k.uv * gi.x * gj.y + shear * gi.y * gj.x))
             + vu * (scale * (k.uv * gi.y * gj.x + shear * gi.x * gj.y))
             + DMat3::from_diagonal(DVec3::splat(
-                self.area * geometric * self.pulling_stress.bilinear_form(gi, gj),
+                self.area * self.pulling_stress.bilinear_form(gi, gj),
             ))
-    }
-}
-
-/// dE/dt = 1/2 (F^T dF/dt + dF/dt^T F).
-fn strain_rate(f: Mat3x2, rate: Mat3x2) -> SymTensor2 {
-    SymTensor2 {
-        xx: f.x_axis.dot(rate.x_axis),
-        xy: 0.5 * (f.x_axis.dot(rate.y_axis) + f.y_axis.dot(rate.x_axis)),
-        yy: f.y_axis.dot(rate.y_axis),
     }
 }
 
@@ -157,7 +152,6 @@ mod tests {
 
     const STIFFNESS: StretchStiffness =
         StretchStiffness { uu: 900.0, uv: 250.0, vv: 600.0, shear: 300.0 };
-    const PLAIN: (f64, f64) = (1.0, 1.0);
 
     fn membrane() -> Membrane {
         Membrane {
@@ -182,7 +176,7 @@ mod tests {
         let mut matrix = SMatrix::<f64, 9, 9>::zeros();
         for (k, gi) in face.gradients.into_iter().enumerate() {
             for (l, gj) in face.gradients.into_iter().enumerate() {
-                let block = tangent.block(gi, gj, PLAIN.0, PLAIN.1).to_cols_array();
+                let block = tangent.block(gi, gj).to_cols_array();
                 matrix
                     .fixed_view_mut::<3, 3>(3 * k, 3 * l)
                     .copy_from(&Matrix3::from_iterator(block));
@@ -254,22 +248,33 @@ mod tests {
     }
 
     #[test]
-    fn led_force_is_minus_the_tangent_times_velocity() {
+    fn a_viscous_force_is_minus_the_gradient_of_energy_and_dissipation() {
         let mut random = Random::new(3);
+        let viscosity = Viscosity { ratio: 0.7 };
         let face = membrane();
-        let x = [0; 3].map(|_| random.vector() * 0.15);
-        let v = [0; 3].map(|_| random.vector());
-        let lead = Lead { material: 0.7, geometric: 0.2 };
-        let tangent = MembraneTangent::new(face.area, STIFFNESS, face.gradient_of(&x));
-        let density = tangent.led_force_density(face.gradient_of(&v), lead);
-        for gi in face.gradients {
-            let expected: DVec3 = (0..3)
-                .map(|l| {
-                    let block = tangent.block(gi, face.gradients[l], lead.material, lead.geometric);
-                    block * -v[2 - l]
-                })
-                .sum();
-            assert!((density.mul_vec2(gi) - expected).length() < 1e-10 * expected.length());
+        for _ in 0..50 {
+            let (start, x) =
+                ([0; 3].map(|_| random.vector() * 0.2), [0; 3].map(|_| random.vector() * 0.2));
+            let e0 = face.strain(&start);
+            let tangent = MembraneTangent::new(face.area, STIFFNESS, face.gradient_of(&x))
+                .damped(viscosity, e0);
+            let forces = face.gradients.map(|g| tangent.force_density().mul_vec2(g));
+            let energy = |x: &[DVec3]| {
+                let density = energy_density(STIFFNESS, face.strain(x))
+                    + viscosity.ratio * energy_density(STIFFNESS, face.strain(x) - e0);
+                face.area * density
+            };
+            for (k, force) in forces.into_iter().enumerate() {
+                for axis in DVec3::AXES {
+                    let at = |step: f64| {
+                        let mut moved = x;
+                        moved[2 - k] += axis * step;
+                        energy(&moved)
+                    };
+                    let difference = (at(1e-6) - at(-1e-6)) / 2e-6;
+                    assert!((force.dot(axis) + difference).abs() < 1e-6 * (1.0 + force.length()));
+                }
+            }
         }
     }
 

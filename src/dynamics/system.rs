@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::bending::{Hinge, dihedral_angle};
 use super::breakaway::Finding;
@@ -12,7 +12,7 @@ use super::solve::LinearSolver;
 use super::step::StepState;
 use super::stretch::Membrane;
 use crate::mesh::{CornerId, FaceId, Id, Mesh};
-use crate::scene::{Fabric, StretchStiffness};
+use crate::scene::{Dynamics, Fabric, StretchStiffness};
 
 /// All garments of a scene as one system of nodes, numbered through garment after garment.
 ///
@@ -30,6 +30,13 @@ pub struct System {
     pub(super) frozen: FrozenStiffness,
     pub(super) matrix: BlockMatrix,
     pub(super) right_side: Vec<DVec3>,
+    /// The last solution (m/s).
+    pub(super) change: Vec<DVec3>,
+    /// Scratch: the matrix times something.
+    pub(super) product: Vec<DVec3>,
+    /// Blocks as they were before contacts were added, oldest first.
+    pub(super) touched: Vec<(u32, DMat3)>,
+    pub(super) settings: Dynamics,
     pub(super) solver: LinearSolver,
     /// Per contact of the step in work; empty while all are taken for what they were.
     pub(super) findings: Vec<Finding>,
@@ -86,6 +93,10 @@ impl System {
             frozen: FrozenStiffness::default(),
             matrix: BlockMatrix::zero(empty),
             right_side: Vec::new(),
+            change: Vec::new(),
+            product: Vec::new(),
+            touched: Vec::new(),
+            settings: Dynamics::default(),
             solver: LinearSolver::default(),
             findings: Vec::new(),
         };
@@ -95,6 +106,11 @@ impl System {
         system.right_side = vec![DVec3::ZERO; system.node_count()];
         system.set_pattern(&[]);
         system
+    }
+
+    /// Takes steps as these settings ask, from now on.
+    pub fn set_dynamics(&mut self, settings: Dynamics) {
+        self.settings = settings;
     }
 
     /// Goes on with another system's solver: where the pattern is the same, its analysis is kept.

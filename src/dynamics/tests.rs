@@ -2,7 +2,6 @@
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
-use super::damping::Lead;
 use super::testing::{Random, fabric, seamed_strip, sheet};
 use super::*;
 use crate::mesh::{Id, Mesh};
@@ -15,7 +14,7 @@ const STRETCH: StretchStiffness =
 const BENDING: f64 = 2e-5;
 
 /// A system with constant stiffness, and the state of its meshes.
-fn system_of(meshes: &[&Mesh], damping: f64) -> (System, StepState) {
+pub(super) fn system_of(meshes: &[&Mesh], damping: f64) -> (System, StepState) {
     let fabric = fabric(DENSITY, damping);
     let mut system = System::unfrozen(meshes, &vec![&fabric; meshes.len()]);
     system.frozen.stretch = vec![STRETCH; system.membranes.len()];
@@ -27,7 +26,7 @@ fn system_of(meshes: &[&Mesh], damping: f64) -> (System, StepState) {
 }
 
 /// A sheet and a sewn strip, both crumpled.
-fn two_garments(damping: f64, seed: u64) -> (System, StepState) {
+pub(super) fn two_garments(damping: f64, seed: u64) -> (System, StepState) {
     let (system, mut state) = system_of(&[&sheet(4, 0.4, 0.2), &seamed_strip()], damping);
     let mut random = Random::new(seed);
     state.position.iter_mut().for_each(|x| *x += random.vector() * 0.02);
@@ -110,22 +109,18 @@ fn the_bending_tangent_is_exact_where_hinges_rest() {
 }
 
 #[test]
-fn the_right_side_takes_elastic_forces_ahead_by_the_matrix() {
-    let damping = 0.02;
-    let (mut system, state) = two_garments(damping, 5);
+fn the_right_side_takes_forces_ahead_by_the_matrix() {
+    let (mut system, state) = two_garments(0.02, 5);
     let still = elastic_impulse(&mut system, &state);
     system.assemble(&state, &StepForces::NONE, DT);
-    let ahead = system.linear_system().1.to_vec();
-    // Without tension there is no geometric part: the matrix is M + h (h + beta) K_m.
-    let flat = still.iter().zip(&ahead).map(|(s, a)| *a - *s);
-    let (matrix, _) = system.linear_system();
+    let (matrix, ahead) = system.linear_system();
     let product = matrix.product(&state.velocity);
-    let inertia = system.masses().iter().zip(&state.velocity).map(|(m, v)| *v * *m);
-    let work: f64 = flat.zip(&state.velocity).map(|(d, v)| d.dot(*v)).sum();
-    let expected: f64 =
-        product.iter().zip(inertia).zip(&state.velocity).map(|((p, i), v)| (i - *p).dot(*v)).sum();
-    assert!((work / expected - 1.0).abs() < 1e-10, "{work} J, not {expected} J");
-    assert_eq!(Lead::new(DT, damping), Lead { material: DT + damping, geometric: DT });
+    let scale = product.iter().map(|p| p.length()).fold(0.0, f64::max);
+    for node in 0..still.len() {
+        let inertia = state.velocity[node] * system.masses()[node];
+        let error = ahead[node] - (still[node] - product[node] + inertia);
+        assert!(error.length() < 1e-12 * scale, "node {node}");
+    }
 }
 
 #[test]

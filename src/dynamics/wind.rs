@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::outer;
+use super::step::StepState;
 use crate::scene::Air;
 
 /// Force on a face, and how it yields to the face's velocity.
@@ -39,6 +40,16 @@ pub fn drag(air: &Air, area_vector: DVec3, velocity: DVec3) -> Drag {
         -normal_drag * along_normal * normal - tangential_drag * (relative - along_normal * normal);
     let damping = projector * (2.0 * normal_drag) + (DMat3::IDENTITY - projector) * tangential_drag;
     Drag { force, damping }
+}
+
+/// The drag on a face at the mean velocity of its nodes.
+pub(super) fn drag_on(nodes: [u32; 3], state: &StepState, air: &Air) -> Drag {
+    let [a, b, c] = nodes.map(|n| state.position[n as usize]);
+    drag(air, (b - a).cross(c - a), mean(nodes, &state.velocity))
+}
+
+pub(super) fn mean(nodes: [u32; 3], values: &[DVec3]) -> DVec3 {
+    nodes.map(|n| values[n as usize]).iter().sum::<DVec3>() / 3.0
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ pub use load::{LoadOptions, LoadedShot, load, shot_schema};
 pub use motion::{Motion, MotionError, MotionKey};
 pub use pose::{Pose, PoseVelocity};
 pub use resolve::{load_camera, recorded_viewers};
-pub use settings::{Air, Contact, SizingSettings, StageSwitches, ViewRule, ViewSettings};
+pub use settings::{Air, Contact, Dynamics, SizingSettings, StageSwitches, ViewRule, ViewSettings};
 pub use source::{EmbeddedFiles, FileRead, FileSource, FileSystem};
 pub use surface::Surface;
 
@@ -50,6 +50,7 @@ pub struct Scene {
     pub gravity: DVec3,
     pub air: Air,
     pub contact: Contact,
+    pub dynamics: Dynamics,
     /// Stiffness of the springs that hold handle nodes (N/m).
     pub handle_stiffness: f64,
     pub stages: StageSwitches,

@@ -40,6 +40,22 @@ impl Default for Contact {
     }
 }
 
+/// How the equations of a step are solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dynamics {
+    /// Newton iterations a step at most; 1 is one linearised step, which is what most shots need.
+    /// More: stiff cloth and hard contact at large steps, each at the price of another solution.
+    pub iterations: u32,
+    /// Iterations end when none changes a velocity by more than this (m/s).
+    pub tolerance: f64,
+}
+
+impl Default for Dynamics {
+    fn default() -> Self {
+        Self { iterations: 1, tolerance: 1e-4 }
+    }
+}
+
 /// Stages that a scene may leave out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StageSwitches {

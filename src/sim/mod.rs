@@ -156,8 +156,10 @@ impl MovingCloth {
         let faces = global_faces(garments);
         // Only obstacles ask for the nearest face.
         let asked_for: &[_] = if scene.obstacles.is_empty() { &[] } else { &faces };
+        let mut system = System::new(&meshes, &fabrics);
+        system.set_dynamics(scene.dynamics);
         Self {
-            system: System::new(&meshes, &fabrics),
+            system,
             tree: FaceTree::new(&state.position, asked_for),
             area: meshes.iter().flat_map(|m| m.node_areas().into_vec()).collect(),
             held: HeldNodes::new(scene, garments),

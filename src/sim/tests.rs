@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 use super::*;
 use crate::mesh::RawMesh;
 use crate::scene::{
-    Air, Contact, Garment, Handle, MeasuredFabric, Obstacle, SizingSettings, StageSwitches,
-    Surface, ViewSettings,
+    Air, Contact, Dynamics, Garment, Handle, MeasuredFabric, Obstacle, SizingSettings,
+    StageSwitches, Surface, ViewSettings,
 };
 use crate::shot::{CameraKey, CameraPath, Lens, Track};
 
@@ -63,6 +63,7 @@ fn scene(mesh: Mesh) -> Scene {
         gravity: DVec3::NEG_Z * 9.81,
         air: Air { density: 0.0, ..Air::default() },
         contact: Contact::default(),
+        dynamics: Dynamics::default(),
         handle_stiffness: 1e6,
         stages: StageSwitches::default(),
         garments: vec![Garment {

@@ -13,7 +13,7 @@ pub use parts::{
     GarmentFile, HandleFile, KeyframeFile, MotionFile, ObstacleFile, TransformFile, VelocityFile,
 };
 pub(super) use setup::stages;
-pub use setup::{AirFile, ContactFile, SizingFile, StageName, ViewFile};
+pub use setup::{AirFile, ContactFile, DynamicsFile, SizingFile, StageName, ViewFile};
 
 use std::collections::BTreeMap;
 
@@ -54,6 +54,9 @@ pub struct ShotFile {
     /// Contact between cloth and cloth and between cloth and obstacles.
     #[serde(default)]
     pub contact: ContactFile,
+    /// How the equations of a step are solved.
+    #[serde(default)]
+    pub dynamics: DynamicsFile,
     /// Stiffness of the springs that hold handle nodes (N/m). Default 1e6; softer: held nodes lag
     /// behind their motion.
     #[serde(default = "default_handle_stiffness")]

@@ -4,7 +4,7 @@ use glam::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::scene::{Air, Contact, SizingSettings, StageSwitches, ViewRule, ViewSettings};
+use crate::scene::{Air, Contact, Dynamics, SizingSettings, StageSwitches, ViewRule, ViewSettings};
 
 /// The air around the cloth.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -60,6 +60,31 @@ impl ContactFile {
     pub(in crate::scene) fn contact(self) -> Contact {
         let Self { thickness, stiffness, friction_cloth, friction_obstacle } = self;
         Contact { thickness, stiffness, friction_cloth, friction_obstacle }
+    }
+}
+
+/// How the equations of a step are solved.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct DynamicsFile {
+    /// Newton iterations a step at most. Default 1: one linearised step. More: stiff cloth and hard
+    /// contact at large steps, each at the price of another solution.
+    pub iterations: u32,
+    /// Iterations end when none changes a velocity by more than this (m/s). Default 0.0001.
+    pub tolerance: f64,
+}
+
+impl Default for DynamicsFile {
+    fn default() -> Self {
+        let Dynamics { iterations, tolerance } = Dynamics::default();
+        Self { iterations, tolerance }
+    }
+}
+
+impl DynamicsFile {
+    pub(in crate::scene) fn dynamics(self) -> Dynamics {
+        let Self { iterations, tolerance } = self;
+        Dynamics { iterations, tolerance }
     }
 }
 

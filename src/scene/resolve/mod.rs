@@ -92,6 +92,7 @@ impl<'a> Resolver<'a> {
             gravity: DVec3::from_array(self.file.gravity),
             air: self.file.air.air(),
             contact: self.file.contact.contact(),
+            dynamics: self.file.dynamics.dynamics(),
             handle_stiffness: self.file.handle_stiffness,
             stages: stages(&self.file.disable),
             garments,
@@ -122,6 +123,7 @@ impl<'a> Resolver<'a> {
     fn check_setup(&self) -> Result<(), LoadError> {
         let file = &self.file;
         let steps = f64::from(file.steps_per_frame);
+        let iterations = f64::from(file.dynamics.iterations);
         let mut numbers = vec![
             ("fps".to_owned(), file.fps, Limit::Positive),
             ("steps_per_frame".to_owned(), steps, Limit::AtLeast(1.0)),
@@ -136,6 +138,8 @@ impl<'a> Resolver<'a> {
                 file.contact.friction_obstacle,
                 Limit::AtLeastZero,
             ),
+            ("dynamics.iterations".to_owned(), iterations, Limit::AtLeast(1.0)),
+            ("dynamics.tolerance".to_owned(), file.dynamics.tolerance, Limit::Positive),
             ("handle_stiffness".to_owned(), file.handle_stiffness, Limit::Positive),
         ];
         for k in 0..3 {
