@@ -37,6 +37,14 @@ pub enum BW98 {}
 /// Bridson, Marino, Fedkiw: *Simulation of Clothing with Folds and Wrinkles*, SCA 2003.
 pub enum BMF03 {}
 
+/// Grinspun, Gingold, Reisman, Zorin: *Computing Discrete Shape Operators on General Meshes*,
+/// Computer Graphics Forum (Eurographics) 2006.
+pub enum GGRZ06 {}
+
+/// Neunteufel, Schoeberl: *The Hellan-Herrmann-Johnson Method for Nonlinear Shells*, Computers &
+/// Structures 2019. The method for plates is of Hellan (1967), Herrmann (1967) and Johnson (1973).
+pub enum NS19 {}
+
 /// Fritsch, Carlson: *Monotone Piecewise Cubic Interpolation*, SIAM J. Numer. Anal. 1980.
 pub enum FC80 {}
 

@@ -10,7 +10,7 @@ use super::iterate::Iterate;
 use super::matrix::BlockMatrix;
 use super::step::{StepForces, StepState};
 use super::stretch::MembraneTangent;
-use super::system::{HingeSlots, System};
+use super::system::{GarmentRanges, HingeSlots, System};
 use super::{outer, wind};
 use crate::scene::Air;
 
@@ -112,14 +112,18 @@ impl System {
         let mut degenerate = 0;
         for garment in &self.garments {
             let viscosity = Viscosity::new(garment.fabric.damping(), dt);
+            let moments = self.law_moments(garment, iterate, start, viscosity);
             for index in garment.hinges.clone() {
                 let hinge = &self.hinges[index];
                 let Some(now) = dihedral(hinge.corners(&iterate.position)) else {
                     degenerate += 1;
                     continue;
                 };
-                let stiffness = 2.0 * self.frozen.bending[index] * hinge.shape;
-                let push = HingePush::new(hinge, now, stiffness, viscosity, start);
+                let stiffness = self.frozen.bending[index];
+                let mut push = HingePush::new(hinge, now, stiffness, viscosity, start);
+                if let Some(moments) = &moments {
+                    push.moment = -moments[index - garment.hinges.start];
+                }
                 for (node, &gradient) in hinge.nodes.iter().zip(&push.gradients) {
                     self.right_side[*node as usize] += gradient * (push.moment * dt);
                 }
@@ -128,6 +132,24 @@ impl System {
             }
         }
         degenerate
+    }
+
+    /// The moments of a garment's fold law at an iterate (N m), damping included.
+    fn law_moments(
+        &self,
+        garment: &GarmentRanges,
+        iterate: &Iterate,
+        start: &StepState,
+        viscosity: Viscosity,
+    ) -> Option<Vec<f64>> {
+        let law = garment.fold_law.as_ref()?;
+        let mut moments = self.folds(garment, &iterate.position);
+        if viscosity.is_felt() {
+            let since = self.folds_since(garment, iterate, start);
+            moments.iter_mut().zip(since).for_each(|(fold, s)| *fold += viscosity.ratio * s);
+        }
+        law.moments(&mut moments);
+        Some(moments)
     }
 
     /// The drag is linearised where the step starts, at every iterate.
@@ -194,9 +216,9 @@ struct HingePush {
 }
 
 impl HingePush {
-    /// W = k shape ((theta - theta_rest)^2 + ratio (theta - theta_start)^2); its tangent keeps
-    /// dtheta dtheta^T and drops the second derivative of theta (Gauss-Newton), which is exact at
-    /// rest and never indefinite. `stiffness` is 2 k shape (N m).
+    /// W = 1/2 stiffness ((theta - theta_rest)^2 + ratio (theta - theta_start)^2), `stiffness` in N m;
+    /// its tangent keeps dtheta dtheta^T and drops the second derivative of theta (Gauss-Newton),
+    /// which is exact at rest and never indefinite.
     fn new(
         hinge: &Hinge,
         now: Dihedral,

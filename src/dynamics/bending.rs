@@ -47,14 +47,15 @@ impl Hinge {
         turn(self.rest_angle, angle)
     }
 
-    /// W = k shape (theta - theta_0)^2 (J), k in N m, frozen
-    /// ([`WOR11`](crate::papers::WOR11), [`BMF03`](crate::papers::BMF03)); zero where the angle is
-    /// not defined.
-    pub fn energy(&self, stiffness: f64, positions: &[DVec3]) -> f64 {
-        match dihedral_angle(self.corners(positions)) {
-            Some(angle) => stiffness * self.shape * self.fold(angle).powi(2),
-            None => 0.0,
-        }
+    /// theta - theta_0 at positions (rad); zero where the angle is not defined.
+    pub fn fold_at(&self, positions: &[DVec3]) -> f64 {
+        dihedral_angle(self.corners(positions)).map_or(0.0, |angle| self.fold(angle))
+    }
+
+    /// d2W/dtheta2 (N m) of W = k shape (theta - theta_0)^2, k in N m, frozen
+    /// ([`WOR11`](crate::papers::WOR11), [`BMF03`](crate::papers::BMF03)).
+    pub fn moment_per_fold(&self, stiffness: f64) -> f64 {
+        2.0 * stiffness * self.shape
     }
 
     /// k, the mean over both sides of a seam, of a stiffness k(edge angle, curvature) (N m) at a
@@ -203,12 +204,13 @@ mod tests {
     #[test]
     fn a_relaxed_hinge_stores_no_energy() {
         let angle = dihedral_angle(folded(0.7)).unwrap();
-        assert_eq!(hinge(angle).energy(1e-5, &folded(0.7)), 0.0);
+        assert_eq!(hinge(angle).fold_at(&folded(0.7)), 0.0);
     }
 
     #[test]
     fn energy_is_a_quarter_k_l_squared_over_twice_the_areas() {
-        let energy = hinge(0.2).energy(1e-5, &folded(0.7));
+        let hinge = hinge(0.2);
+        let energy = 0.5 * hinge.moment_per_fold(1e-5) * hinge.fold_at(&folded(0.7)).powi(2);
         let expected = 0.25 * 1e-5 * 0.11f64.powi(2) / (2.0 * 0.010) * 0.5f64.powi(2);
         assert!((energy - expected).abs() < 1e-12 * expected.abs() + 1e-20);
     }

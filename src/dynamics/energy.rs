@@ -7,13 +7,13 @@
 
 use glam::DVec3;
 
-use super::bending::{dihedral_angle, turn};
+use super::bending::{Hinge, dihedral_angle, turn};
 use super::contact::IteratedContact;
 use super::damping::Viscosity;
 use super::iterate::Iterate;
 use super::step::{StepForces, StepState};
 use super::stretch::energy_density;
-use super::system::System;
+use super::system::{GarmentRanges, System};
 use super::wind;
 use crate::scene::Air;
 
@@ -63,11 +63,18 @@ impl System {
         sum
     }
 
-    /// k shape [(theta - theta_rest)^2 + beta / h (theta - theta_0)^2].
+    /// W(theta - theta_rest) + beta / h W(theta - theta_0); of a hinge, W(fold) = k shape fold^2.
     fn bending_energy(&self, iterate: &Iterate, start: &StepState, dt: f64) -> f64 {
         let mut sum = 0.0;
         for garment in &self.garments {
             let viscosity = Viscosity::new(garment.fabric.damping(), dt);
+            if let Some(law) = &garment.fold_law {
+                sum += law.energy(&self.folds(garment, &iterate.position));
+                if viscosity.is_felt() {
+                    sum += viscosity.ratio * law.energy(&self.folds_since(garment, iterate, start));
+                }
+                continue;
+            }
             for index in garment.hinges.clone() {
                 let hinge = &self.hinges[index];
                 let Some(angle) = dihedral_angle(hinge.corners(&iterate.position)) else {
@@ -79,10 +86,26 @@ impl System {
                 {
                     folds += viscosity.ratio * turn(first, angle).powi(2);
                 }
-                sum += self.frozen.bending[index] * hinge.shape * folds;
+                sum += 0.5 * self.frozen.bending[index] * folds;
             }
         }
         sum
+    }
+
+    /// How far a garment's hinges have turned since a step's start (rad).
+    pub(super) fn folds_since(
+        &self,
+        garment: &GarmentRanges,
+        iterate: &Iterate,
+        start: &StepState,
+    ) -> Vec<f64> {
+        let since = |hinge: &Hinge| {
+            let first = dihedral_angle(hinge.corners(&start.position))?;
+            let now = dihedral_angle(hinge.corners(&iterate.position))?;
+            Some(turn(first, now))
+        };
+        let hinges = self.hinges[garment.hinges.clone()].iter();
+        hinges.map(|hinge| since(hinge).unwrap_or(0.0)).collect()
     }
 
     /// -h (f_0.dv - 1/2 dv.D dv) with dv the change of a face's mean velocity.

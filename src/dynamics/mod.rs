@@ -7,7 +7,8 @@
 //! search.
 //! [`System`] holds what stays while the meshes stay; [`stretch`], [`bending`], [`wind`],
 //! [`handles`] and [`contact`] each state a force and a positive semi-definite tangent, so that the
-//! matrix is positive definite whatever the state; [`solve`] factorises it.
+//! matrix is positive definite whatever the state; [`solve`] factorises it. Measured fabrics bend by
+//! hinges of their own stiffness, elastic ones by all folds together (`folds`, `plate`).
 
 mod assembly;
 pub mod bending;
@@ -15,6 +16,10 @@ mod breakaway;
 pub mod contact;
 pub mod damping;
 mod energy;
+mod factor;
+mod folds;
+#[cfg(test)]
+mod folds_tests;
 pub mod handles;
 mod iterate;
 pub mod matrix;
@@ -22,6 +27,7 @@ mod newton;
 #[cfg(test)]
 mod newton_tests;
 mod permuted;
+mod plate;
 pub mod solve;
 mod step;
 pub mod stretch;

@@ -7,6 +7,7 @@ use glam::{DMat3, DVec3};
 
 use super::bending::{Hinge, dihedral_angle};
 use super::breakaway::Finding;
+use super::folds::FoldLaw;
 use super::matrix::{BlockMatrix, Pattern};
 use super::solve::LinearSolver;
 use super::step::StepState;
@@ -43,12 +44,14 @@ pub struct System {
 }
 
 /// A garment's share of the arrays.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct GarmentRanges {
     pub fabric: Fabric,
     pub nodes: Range<usize>,
     pub membranes: Range<usize>,
     pub hinges: Range<usize>,
+    /// What the hinges' moments are if not each hinge's own.
+    pub fold_law: Option<FoldLaw>,
 }
 
 /// Where a hinge's blocks go.
@@ -64,7 +67,7 @@ pub(super) struct HingeSlots {
 pub(super) struct FrozenStiffness {
     /// Per membrane.
     pub stretch: Vec<StretchStiffness>,
-    /// Per hinge (N m).
+    /// Per hinge, d2W/dtheta2 as the matrix has it (N m).
     pub bending: Vec<f64>,
 }
 
@@ -153,10 +156,15 @@ impl System {
                     .iter()
                     .map(|face| fabric.stretch_stiffness(face.gradient_of(positions))),
             );
+            if let Some(law) = &garment.fold_law {
+                bending.extend_from_slice(law.tangent());
+                continue;
+            }
             bending.extend(self.hinges[garment.hinges.clone()].iter().map(|hinge| {
                 // A hinge without an angle has no force either, whatever its stiffness.
                 let angle = dihedral_angle(hinge.corners(positions)).unwrap_or(0.0);
-                hinge.stiffness(angle, |edge, curve| fabric.hinge_stiffness(edge, curve))
+                let law = |edge, curve| fabric.hinge_stiffness(edge, curve);
+                hinge.moment_per_fold(hinge.stiffness(angle, law))
             }));
         }
     }
@@ -165,9 +173,26 @@ impl System {
     pub fn potential_energy(&self, state: &StepState) -> f64 {
         let positions = &state.position;
         let stretch = self.membranes.iter().zip(&self.frozen.stretch);
-        let bending = self.hinges.iter().zip(&self.frozen.bending);
-        stretch.map(|(face, &k)| face.energy(k, positions)).sum::<f64>()
-            + bending.map(|(hinge, &k)| hinge.energy(k, positions)).sum::<f64>()
+        let bending = self.garments.iter().map(|garment| self.elastic_bending(garment, positions));
+        stretch.map(|(face, &k)| face.energy(k, positions)).sum::<f64>() + bending.sum::<f64>()
+    }
+
+    /// (J).
+    pub(super) fn elastic_bending(&self, garment: &GarmentRanges, positions: &[DVec3]) -> f64 {
+        let folds = self.folds(garment, positions);
+        match &garment.fold_law {
+            Some(law) => law.energy(&folds),
+            None => {
+                let stiffness = &self.frozen.bending[garment.hinges.clone()];
+                stiffness.iter().zip(&folds).map(|(k, fold)| 0.5 * k * fold * fold).sum()
+            }
+        }
+    }
+
+    /// theta - theta_0 of a garment's hinges (rad); zero of those without an angle.
+    pub(super) fn folds(&self, garment: &GarmentRanges, positions: &[DVec3]) -> Vec<f64> {
+        let hinges = self.hinges[garment.hinges.clone()].iter();
+        hinges.map(|hinge| hinge.fold_at(positions)).collect()
     }
 
     /// 1/2 sum m v^2 (J).
@@ -205,6 +230,7 @@ impl System {
             nodes: offset..self.node_count(),
             membranes: first_membrane..self.membranes.len(),
             hinges: first_hinge..self.hinges.len(),
+            fold_law: fabric.plate().and_then(|(plate, model)| FoldLaw::new(mesh, plate, model)),
         });
     }
 }

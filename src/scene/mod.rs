@@ -17,7 +17,10 @@ mod source;
 mod surface;
 
 pub use error::{LoadError, Place, Problem};
-pub use fabric::{ElasticFabric, Fabric, IsotropicSheet, MeasuredFabric, StretchStiffness};
+pub use fabric::{
+    BendingModel, ElasticFabric, Fabric, IsotropicSheet, MeasuredFabric, PlateCompliance,
+    StretchStiffness,
+};
 pub use load::{LoadOptions, LoadedShot, load, shot_schema};
 pub use motion::{Motion, MotionError, MotionKey};
 pub use pose::{Pose, PoseVelocity};

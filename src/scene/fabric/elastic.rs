@@ -1,6 +1,10 @@
 //! Linear elastic sheets in real units: isotropic, or orthotropic along warp and weft.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::StretchStiffness;
+use crate::math::SymTensor2;
 
 /// A sheet whose stiffness depends neither on strain nor on curvature. Warp runs along u, weft
 /// along v; where a value has two, they are those of warp and weft.
@@ -23,10 +27,47 @@ pub struct ElasticFabric {
     pub bending_rigidity: [f64; 2],
     /// D_xy (N m): the twisting moment per length at a twist of 1/m; (1 - nu) D if isotropic.
     pub twist_rigidity: f64,
+    pub bending_model: BendingModel,
     /// Damping proportional to stiffness (s).
     pub damping: f64,
     /// Least and largest principal stretch the garment may show.
     pub strain_limits: Option<[f64; 2]>,
+}
+
+/// How the bending of an elastic sheet is taken from its mesh.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BendingModel {
+    /// Each edge by itself: stiffer or softer by what the mesh looks like.
+    Hinges,
+    /// The curvature of a face from the normals at its edges, each between those of the edge's
+    /// faces ([`GGRZ06`](crate::papers::GGRZ06)): too stiff on irregular meshes.
+    MidEdge,
+    /// The curvature of a face from the quadratic surface through its folds: too soft on irregular
+    /// meshes.
+    Quadratic,
+    /// Moments in balance across edges ([`NS19`](crate::papers::NS19)): as stiff on any mesh.
+    #[default]
+    Moments,
+}
+
+/// D^-1 of a plate (1/(N m)): curvature = D^-1 moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlateCompliance {
+    pub uu: f64,
+    pub uv: f64,
+    pub vv: f64,
+    pub twist: f64,
+}
+
+impl PlateCompliance {
+    /// a : D^-1 : b.
+    pub fn product(self, a: SymTensor2, b: SymTensor2) -> f64 {
+        self.uu * a.xx * b.xx
+            + self.vv * a.yy * b.yy
+            + self.uv * (a.xx * b.yy + a.yy * b.xx)
+            + 2.0 * self.twist * a.xy * b.xy
+    }
 }
 
 /// What an isotropic sheet is given by; the rest of [`ElasticFabric`] follows.
@@ -53,6 +94,7 @@ impl IsotropicSheet {
             poisson_ratio: nu,
             bending_rigidity: [self.bending_rigidity; 2],
             twist_rigidity: isotropic_twist_rigidity([self.bending_rigidity; 2], nu),
+            bending_model: BendingModel::default(),
             damping: 0.0,
             strain_limits: None,
         }
@@ -81,7 +123,29 @@ pub fn isotropic_twist_rigidity(bending_rigidity: [f64; 2], poisson_ratio: f64) 
 /// sheet with a Poisson's ratio of -1/3, and on other meshes they follow the mesh.
 const HINGE_PER_PLATE: f64 = 4.0;
 
+/// The least rigidity, in shares of the largest, for which a compliance is made up: a sheet that can
+/// be bent or twisted at no cost has none.
+const RIGIDITY_SHARE_MIN: f64 = 1e-3;
+
 impl ElasticFabric {
+    /// `None` if nothing resists bending.
+    pub fn plate_compliance(&self) -> Option<PlateCompliance> {
+        let [u, v] = self.bending_rigidity;
+        let least = RIGIDITY_SHARE_MIN * u.max(v).max(self.twist_rigidity);
+        if least == 0.0 {
+            return None;
+        }
+        let (u, v, twist) = (u.max(least), v.max(least), self.twist_rigidity.max(least));
+        let nu = self.poisson_ratio;
+        let free = 1.0 - nu * nu;
+        Some(PlateCompliance {
+            uu: 1.0 / (free * u),
+            uv: -nu / (free * (u * v).sqrt()),
+            vv: 1.0 / (free * v),
+            twist: 1.0 / twist,
+        })
+    }
+
     /// k_uu = E_u h / (1 - nu^2), k_vv likewise, k_uv = nu sqrt(k_uu k_vv), k_shear = 2 G h: E_uv
     /// is half the angle of shear.
     pub fn stretch_stiffness(&self) -> StretchStiffness {

@@ -5,7 +5,7 @@ mod elastic;
 mod load_tests;
 mod measured;
 
-pub use elastic::{ElasticFabric, IsotropicSheet};
+pub use elastic::{BendingModel, ElasticFabric, IsotropicSheet, PlateCompliance};
 pub(in crate::scene) use elastic::{
     homogeneous_bending_rigidity, isotropic_shear_stiffness, isotropic_twist_rigidity,
 };
@@ -56,6 +56,14 @@ impl Fabric {
         match self {
             Fabric::Measured(fabric) => fabric.stretch_stiffness(deformation.gram()),
             Fabric::Elastic(fabric) => fabric.stretch_stiffness(),
+        }
+    }
+
+    /// How it bends, where that is more than hinges.
+    pub fn plate(&self) -> Option<(PlateCompliance, BendingModel)> {
+        match self {
+            Fabric::Measured(_) => None,
+            Fabric::Elastic(fabric) => Some((fabric.plate_compliance()?, fabric.bending_model)),
         }
     }
 

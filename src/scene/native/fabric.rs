@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::scene::BendingModel;
+
 /// A fabric: measured tables, here or in a material file, or an elastic sheet; and factors on
 /// them.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -14,6 +16,10 @@ pub struct FabricFile {
     /// A linear elastic sheet, instead of tables.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elastic: Option<ElasticFile>,
+    /// How the bending of an elastic sheet is taken from its mesh. Default `moments`; the others are
+    /// there to compare with.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bending_model: Option<BendingModel>,
     /// Mass per area (kg/m^2).
     pub density: Option<f64>,
     /// Six rows of (k_uu, k_uv, k_vv, k_shear) (N/m): at rest, then for the larger principal
@@ -41,6 +47,7 @@ impl Default for FabricFile {
         Self {
             file: None,
             elastic: None,
+            bending_model: None,
             density: None,
             stretching: None,
             bending: None,

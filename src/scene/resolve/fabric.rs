@@ -10,7 +10,7 @@ use crate::scene::fabric::{
     homogeneous_bending_rigidity, isotropic_shear_stiffness, isotropic_twist_rigidity,
 };
 use crate::scene::native::{ElasticFile, FabricFile, WarpWeft};
-use crate::scene::{ElasticFabric, Fabric, MeasuredFabric};
+use crate::scene::{BendingModel, ElasticFabric, Fabric, MeasuredFabric};
 
 /// The tables of a material file.
 #[derive(Deserialize)]
@@ -49,7 +49,12 @@ impl Resolver<'_> {
         if let Some(elastic) = &file.elastic {
             let sheet = self.elastic(&format!("{path}.elastic"), elastic)?;
             let sheet = sheet.scaled(density, stretching, bending);
-            return Ok(Fabric::Elastic(ElasticFabric { damping, strain_limits, ..sheet }));
+            let bending_model = file.bending_model.unwrap_or_default();
+            let sheet = ElasticFabric { bending_model, damping, strain_limits, ..sheet };
+            return Ok(Fabric::Elastic(sheet));
+        }
+        if file.bending_model.is_some() {
+            return Err(self.missing(&format!("{path}.bending_model"), "an elastic sheet"));
         }
         let tables = match &file.file {
             Some(relative) => self.tables_of_file(&path, relative)?,
@@ -136,6 +141,7 @@ impl Resolver<'_> {
             twist_rigidity: file
                 .twist_rigidity
                 .unwrap_or_else(|| isotropic_twist_rigidity(bending_rigidity, poisson_ratio)),
+            bending_model: BendingModel::default(),
             damping: 0.0,
             strain_limits: None,
         })

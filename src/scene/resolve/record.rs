@@ -43,6 +43,7 @@ fn fabric(fabric: &Fabric) -> Value {
                 "bending_rigidity": elastic.bending_rigidity,
                 "twist_rigidity": elastic.twist_rigidity,
             },
+            "bending_model": elastic.bending_model,
             "damping": elastic.damping,
             "strain_limits": elastic.strain_limits,
         }),
