@@ -2,8 +2,9 @@
 //!
 //! The modules stand in reading order; each uses only those above it:
 //! what is simulated ([`math`], [`mesh`], [`scene`], [`shot`]), how fine ([`sizing`], [`view`],
-//! [`remesh`]), how it moves ([`dynamics`], [`collision`], [`sim`]), how it is kept ([`run`]) and
-//! shown ([`render`], [`sheet`]), and how it is started ([`cli`]).
+//! [`remesh`]), how it moves ([`dynamics`], [`collision`], [`sim`]), what two runs have in common
+//! ([`resample`]), how it is kept ([`run`]) and shown ([`render`], [`sheet`]), how it is judged
+//! ([`compare`], [`chart`]), and how it is started ([`cli`]).
 //!
 //! # One frame
 //! ```text
@@ -37,10 +38,16 @@ pub mod collision;
 pub mod dynamics;
 pub mod sim;
 
+pub mod resample;
+
 pub mod run;
 
 pub mod render;
 pub mod sheet;
+
+pub mod compare;
+
+pub mod chart;
 
 pub mod own_shot;
 

@@ -51,3 +51,14 @@ pub enum FC80 {}
 /// Baerentzen, Aanaes: *Signed Distance Computation Using the Angle Weighted Pseudonormal*,
 /// IEEE TVCG 2005.
 pub enum BA05 {}
+
+/// Olano, Greer: *Triangle Scan Conversion using 2D Homogeneous Coordinates*, Graphics Hardware
+/// 1997.
+pub enum OG97 {}
+
+/// Felzenszwalb, Huttenlocher: *Distance Transforms of Sampled Functions*, Theory of Computing 2012.
+pub enum FH12 {}
+
+/// Andersson, Nilsson, Akenine-Moeller, Oskarsson, Astroem, Fairchild: *FLIP: A Difference Evaluator
+/// for Alternating Images*, HPG 2020.
+pub enum FLIP20 {}

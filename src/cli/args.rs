@@ -99,7 +99,7 @@ impl FrameRange {
 /// The last frame that can be asked for: days of film, and a list of its frames still fits in memory.
 const FRAME_MAX: u32 = 9_999_999;
 
-fn parse_frames(text: &str) -> Result<FrameRange, String> {
+pub(super) fn parse_frames(text: &str) -> Result<FrameRange, String> {
     let number = |part: &str| {
         let number = part.trim().parse().ok().filter(|&n| n <= FRAME_MAX);
         number.ok_or_else(|| format!("{part:?} is not a frame number (0 to {FRAME_MAX})"))

@@ -3,6 +3,7 @@
 use std::process::ExitCode;
 
 use super::interrupt::Signal;
+use crate::compare::RunsError;
 use crate::render::RenderError;
 use crate::run::RunError;
 use crate::scene::LoadError;
@@ -13,30 +14,40 @@ use crate::sim::SimError;
 pub enum Failure {
     #[error("{0}")]
     Usage(String),
+    #[error("{0}")]
+    BadInput(String),
     #[error(transparent)]
     Input(#[from] LoadError),
     #[error(transparent)]
     Run(#[from] RunError),
     #[error(transparent)]
+    Runs(#[from] RunsError),
+    #[error(transparent)]
     Render(#[from] RenderError),
     #[error(transparent)]
     Simulation(#[from] SimError),
+    /// What was compared is not as it should be.
+    #[error("{0}")]
+    Check(String),
     #[error("interrupted; what is written so far is whole")]
     Interrupted(Signal),
 }
 
 impl Failure {
     /// As CONTRACT says: 2 usage, 3 bad input, 4 no graphics adapter, 5 the simulation failed,
-    /// 130 and 143 interrupted.
+    /// 6 a check failed, 130 and 143 interrupted.
     fn exit_code(&self) -> u8 {
         match self {
             Failure::Usage(_) => 2,
-            Failure::Input(_) => 3,
+            Failure::BadInput(_) | Failure::Input(_) => 3,
             Failure::Run(error) if error.is_bad_input() => 3,
             Failure::Run(_) => 1,
+            Failure::Runs(RunsError::Run(error)) if !error.is_bad_input() => 1,
+            Failure::Runs(_) => 3,
             Failure::Render(RenderError::NoAdapter { .. }) => 4,
             Failure::Render(_) => 1,
             Failure::Simulation(_) => 5,
+            Failure::Check(_) => 6,
             Failure::Interrupted(signal) => signal.exit_code(),
         }
     }

@@ -1,6 +1,7 @@
 //! The command line, one subcommand a file.
 
 mod args;
+mod compare;
 mod failure;
 mod footage;
 mod interrupt;
@@ -37,6 +38,8 @@ enum Command {
     Render(render::RenderArgs),
     /// Draw a contact sheet of a shot or a run
     Sheet(sheet::SheetArgs),
+    /// Compare two runs as the shot camera sees them, or two pictures
+    Compare(compare::CompareArgs),
     /// Print the JSON Schema of the shot file
     Schema,
 }
@@ -50,6 +53,7 @@ pub fn main() -> ExitCode {
         Command::Simulate(args) => simulate::run(&args, cli.log),
         Command::Render(args) => render::run(&args, cli.log),
         Command::Sheet(args) => sheet::run(&args, cli.log),
+        Command::Compare(args) => compare::run(&args, cli.log),
         Command::Schema => output::print(schema::run()),
     };
     match result {

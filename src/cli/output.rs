@@ -42,14 +42,21 @@ impl PendingFile {
 
     /// # Errors
     /// If the file system refuses.
-    pub fn write_png(self, image: &RgbaImage) -> Result<()> {
+    pub fn write(self, contents: &[u8]) -> Result<()> {
         let cannot = || format!("cannot write {:?}", self.path.display());
-        let mut writer = io::BufWriter::new(self.file.as_file());
-        image.write_to(&mut writer, ImageFormat::Png).with_context(cannot)?;
-        writer.flush().with_context(cannot)?;
-        drop(writer);
+        self.file.as_file().write_all(contents).with_context(cannot)?;
         self.file.persist(&self.path).map_err(|e| e.error).with_context(cannot)?;
         Ok(())
+    }
+
+    /// # Errors
+    /// If the file system refuses.
+    pub fn write_png(self, image: &RgbaImage) -> Result<()> {
+        let mut bytes = io::Cursor::new(Vec::new());
+        image
+            .write_to(&mut bytes, ImageFormat::Png)
+            .with_context(|| format!("cannot write {:?}", self.path.display()))?;
+        self.write(bytes.get_ref())
     }
 }
 

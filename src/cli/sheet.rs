@@ -75,11 +75,11 @@ pub fn run(args: &SheetArgs, log: LogArgs) -> Result<()> {
     output::print(args.out.display())
 }
 
-fn parse_png_path(text: &str) -> Result<PathBuf, String> {
+pub(super) fn parse_png_path(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
         true => Ok(path),
-        false => Err("a sheet is a PNG file: let its name end in .png".to_owned()),
+        false => Err("it is a PNG file: let its name end in .png".to_owned()),
     }
 }
 

@@ -56,6 +56,8 @@ pub struct Scene {
     pub dynamics: Dynamics,
     /// Stiffness of the springs that hold handle nodes (N/m).
     pub handle_stiffness: f64,
+    /// How far every node is moved at frame 0, each in a direction of its own (m).
+    pub start_perturbation: f64,
     pub stages: StageSwitches,
     pub garments: Vec<Garment>,
     pub obstacles: Vec<Obstacle>,

@@ -10,6 +10,7 @@
 mod clock;
 mod frame;
 mod handles;
+mod perturb;
 mod refine;
 mod settings;
 mod start;
@@ -73,6 +74,7 @@ impl Simulation {
         };
         let mut report = FrameReport::default();
         simulation.settle(&mut clock, &mut report)?;
+        simulation.perturb();
         clock.time(Stage::Collision, || simulation.clear_obstacles(&mut report));
         let frame = simulation.publish(clock, report);
         Ok((simulation, frame))

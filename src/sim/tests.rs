@@ -65,6 +65,7 @@ fn scene(mesh: Mesh) -> Scene {
         contact: Contact::default(),
         dynamics: Dynamics::default(),
         handle_stiffness: 1e6,
+        start_perturbation: 0.0,
         stages: StageSwitches::default(),
         garments: vec![Garment {
             name: "sheet".into(),
@@ -188,6 +189,20 @@ fn a_garment_that_is_too_small_for_its_nodes_is_relaxed_before_the_first_frame()
     assert!(frames[0].report.largest_stretch < 0.05, "{}", frames[0].report.largest_stretch);
     let extent = |f: &Frame| f.garments[0].position.iter().map(|x| x.length()).fold(0.0, f64::max);
     assert!((extent(&frames[0]) - extent(&frames[1])).abs() < 0.01, "the first frame jumps");
+}
+
+#[test]
+fn a_perturbed_start_moves_every_node_by_that_much_and_each_its_own_way() {
+    let [still, moved] = [0.0, 1e-6].map(|start_perturbation| {
+        let perturbed = Scene { start_perturbation, ..scene(sheet()) };
+        run(perturbed, SizingMode::Adaptive, 0).remove(0)
+    });
+    let positions = |f: &Frame| f.garments[0].position.clone().into_vec();
+    let shifts: Vec<DVec3> =
+        positions(&still).iter().zip(positions(&moved)).map(|(&a, b)| b - a).collect();
+    assert!(shifts.iter().all(|s| (s.length() - 1e-6).abs() < 1e-12));
+    let mean = shifts.iter().sum::<DVec3>() / shifts.len() as f64;
+    assert!(mean.length() < 0.5e-6, "{mean}");
 }
 
 #[test]

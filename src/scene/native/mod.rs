@@ -61,6 +61,10 @@ pub struct ShotFile {
     /// behind their motion.
     #[serde(default = "default_handle_stiffness")]
     pub handle_stiffness: f64,
+    /// How far every node is moved before frame 1, each in a direction of its own (m). Default 0.
+    /// Two runs that differ by a hair in this tell where chaos takes over.
+    #[serde(default)]
+    pub start_perturbation: f64,
     /// Stages to leave out. Default none.
     #[serde(default)]
     pub disable: Vec<StageName>,

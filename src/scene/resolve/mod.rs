@@ -94,6 +94,7 @@ impl<'a> Resolver<'a> {
             contact: self.file.contact.contact(),
             dynamics: self.file.dynamics.dynamics(),
             handle_stiffness: self.file.handle_stiffness,
+            start_perturbation: self.file.start_perturbation,
             stages: stages(&self.file.disable),
             garments,
             obstacles,
@@ -141,6 +142,7 @@ impl<'a> Resolver<'a> {
             ("dynamics.iterations".to_owned(), iterations, Limit::AtLeast(1.0)),
             ("dynamics.tolerance".to_owned(), file.dynamics.tolerance, Limit::Positive),
             ("handle_stiffness".to_owned(), file.handle_stiffness, Limit::Positive),
+            ("start_perturbation".to_owned(), file.start_perturbation, Limit::AtLeastZero),
         ];
         for k in 0..3 {
             numbers.push((format!("gravity.{k}"), file.gravity[k], Limit::Finite));

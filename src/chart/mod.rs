@@ -1,0 +1,8 @@
+//! What a suite of measurements found, as charts and tables; plain data in, text out.
+
+mod reference;
+mod study;
+mod visible_error;
+
+pub use reference::{EdgeLengths, uniform_edge_length};
+pub use study::{FrameFigures, Reference, Study, Subject};
