@@ -2,9 +2,10 @@
 //!
 //! The modules stand in reading order; each uses only those above it:
 //! what is simulated ([`math`], [`mesh`], [`scene`], [`shot`]), how fine ([`sizing`], [`view`],
-//! [`remesh`]), how it moves ([`dynamics`], [`collision`], [`sim`]), what two runs have in common
-//! ([`resample`]), how it is kept ([`run`]) and shown ([`render`], [`sheet`]), how it is judged
-//! ([`compare`], [`chart`]), and how it is started ([`cli`]).
+//! [`remesh`]), how it moves ([`dynamics`], [`collision`], [`sim`]) and how right that is
+//! ([`validation`]), what two runs have in common ([`resample`]), how it is kept ([`run`]) and shown
+//! ([`render`], [`sheet`]), how it is judged ([`compare`], [`chart`]), and how it is started
+//! ([`cli`]).
 //!
 //! # One frame
 //! ```text
@@ -37,6 +38,8 @@ pub mod remesh;
 pub mod collision;
 pub mod dynamics;
 pub mod sim;
+
+pub mod validation;
 
 pub mod resample;
 

@@ -1,6 +1,7 @@
 //! The command line, one subcommand a file.
 
 mod args;
+mod chart;
 mod compare;
 mod failure;
 mod footage;
@@ -40,6 +41,8 @@ enum Command {
     Sheet(sheet::SheetArgs),
     /// Compare two runs as the shot camera sees them, or two pictures
     Compare(compare::CompareArgs),
+    /// Measure a suite of figures and hold them against what is known
+    Chart(chart::ChartArgs),
     /// Print the JSON Schema of the shot file
     Schema,
 }
@@ -54,6 +57,7 @@ pub fn main() -> ExitCode {
         Command::Render(args) => render::run(&args, cli.log),
         Command::Sheet(args) => sheet::run(&args, cli.log),
         Command::Compare(args) => compare::run(&args, cli.log),
+        Command::Chart(args) => chart::run(&args, cli.log),
         Command::Schema => output::print(schema::run()),
     };
     match result {

@@ -8,6 +8,7 @@ mod bad_mesh;
 mod bad_motion;
 mod bad_output;
 mod bad_shot;
+mod chart;
 mod compare;
 mod contact_sheet;
 mod program;

@@ -1,0 +1,43 @@
+//! Experiments whose outcome is known exactly, done with the simulator and held against it.
+//!
+//! An [`Experiment`] makes one or more [`Claim`]s and measures what becomes of them. Each lives in a
+//! file of its own, with the formula it is held against. What they are made of: [`sheet`]s of known
+//! layout and [`specimen`]s that are clamped, loaded and brought to rest.
+
+mod energy;
+mod experiment;
+mod fabric;
+mod free_fall;
+mod hanging;
+mod momentum;
+mod order;
+mod patch;
+mod remesh_only;
+pub mod sheet;
+pub mod specimen;
+mod stage;
+mod triangulate;
+
+pub use experiment::{Claim, Experiment, ExperimentError, Outcome, Row, Tolerance};
+
+/// All experiments, in the order in which they are listed.
+pub fn experiments() -> Vec<Experiment> {
+    [
+        patch::experiments(),
+        hanging::experiments(),
+        free_fall::experiments(),
+        momentum::experiments(),
+        energy::experiments(),
+        order::experiments(),
+        remesh_only::experiments(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// Acceleration of free fall (m/s^2).
+const GRAVITY: f64 = 9.81;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,84 @@
+//! What edits of the mesh cost while time stands still.
+
+use std::f64::consts::FRAC_PI_2;
+
+use glam::{DVec2, DVec3};
+
+use super::sheet::{Layout, Scatter, Sheet};
+use super::specimen::Specimen;
+use super::{Claim, Experiment, ExperimentError, fabric};
+use crate::mesh::{Collapse, Mesh, MeshEditor, NodeId};
+use crate::scene::Fabric;
+
+pub fn experiments() -> Vec<Experiment> {
+    let claims = vec![
+        Claim::absolute("remesh-only/mass", 0.0, 1e-12),
+        Claim::absolute("remesh-only/momentum", 0.0, 1e-12),
+        Claim::absolute("remesh-only/bending-energy", 0.0, 1e-3),
+    ];
+    vec![Experiment::new(claims, measure)]
+}
+
+/// The relative changes of mass, momentum and bending energy of a quarter of a tube, as it flies
+/// and turns, after a third of its edges have been split and the new nodes collapsed again.
+fn measure() -> Result<Vec<f64>, ExperimentError> {
+    let fabric = fabric::plain(1e-4, 500.0, 0.2);
+    let mesh = tube();
+    let before = Specimen::new(mesh.clone(), &fabric);
+    let after = Specimen::new(split_and_collapsed(mesh)?, &fabric);
+    let bending = [&before, &after].map(|s| bending_energy(s, &fabric));
+    let momentum = before.momentum();
+    Ok(vec![
+        (after.mass() / before.mass() - 1.0).abs(),
+        after.momentum().distance(momentum) / momentum.length(),
+        (bending[1] / bending[0] - 1.0).abs(),
+    ])
+}
+
+fn tube() -> Mesh {
+    let (size, layout) = (DVec2::new(0.4, 0.3), Layout::Irregular);
+    let sheet = Sheet { origin: DVec2::ZERO, size, cell: 0.03, layout, columns: Vec::new() };
+    let radius = size.x / FRAC_PI_2;
+    let mut mesh = sheet.mesh(|u| {
+        let (sine, cosine) = (u.x / radius).sin_cos();
+        DVec3::new(radius * sine, u.y, radius * cosine)
+    });
+    let (speed, spin) = (DVec3::new(1.0, 2.0, 0.5), DVec3::new(0.0, 3.0, 1.0));
+    for node in mesh.node_ids() {
+        mesh.velocity[node] = speed + spin.cross(mesh.position[node]);
+    }
+    mesh
+}
+
+/// Energy of the specimen without that of its membrane (J).
+fn bending_energy(specimen: &Specimen, fabric: &Fabric) -> f64 {
+    use crate::dynamics::stretch::{energy_density, green_strain};
+    let mesh = &specimen.mesh;
+    let of = |f| {
+        let deformation = mesh.deformation_gradient(f);
+        let stiffness = fabric.stretch_stiffness(deformation);
+        mesh.material_area(f) * energy_density(stiffness, green_strain(deformation))
+    };
+    let membrane: f64 = mesh.face_ids().map(of).sum();
+    specimen.system.potential_energy(&specimen.state) - membrane
+}
+
+/// Every new node goes back to an end of the edge it came from.
+fn split_and_collapsed(mesh: Mesh) -> Result<Mesh, ExperimentError> {
+    let mut random = Scatter(5);
+    let mut editor = MeshEditor::new(mesh);
+    // By nodes, which stay while faces come and go.
+    let edges = editor.edges().filter(|_| random.number() < -1.0 / 3.0);
+    let edges: Vec<[NodeId; 2]> = edges.map(|c| editor.mesh().edge_nodes(c)).collect();
+    for [kept, other] in edges {
+        let lost = ExperimentError::Nothing("an edge was lost");
+        let corner = editor.mesh().edge_between(kept, other).ok_or(lost)?;
+        let removed = editor.split(corner);
+        let corner = editor.mesh().edge_between(removed, kept);
+        let corner = corner.expect("a split leaves an edge to either end");
+        editor
+            .collapse(Collapse { corner, removed, kept })
+            .map_err(|_| ExperimentError::Nothing("a split could not be collapsed again"))?;
+    }
+    Ok(editor.finish())
+}
