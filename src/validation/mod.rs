@@ -9,6 +9,7 @@ mod experiment;
 mod fabric;
 mod free_fall;
 mod hanging;
+mod incline;
 mod momentum;
 mod order;
 mod patch;
@@ -29,6 +30,7 @@ pub fn experiments() -> Vec<Experiment> {
         momentum::experiments(),
         energy::experiments(),
         order::experiments(),
+        incline::experiments(),
         remesh_only::experiments(),
     ]
     .into_iter()

@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::GRAVITY;
 use crate::mesh::Mesh;
 use crate::scene::{
-    Air, Contact, Fabric, Garment, Obstacle, Pose, Scene, SizingSettings, StageSwitches, Surface,
-    ViewSettings,
+    Air, Contact, Dynamics, Fabric, Garment, Obstacle, Pose, Scene, SizingSettings, StageSwitches,
+    Surface, ViewSettings,
 };
 
 /// In a vacuum, without obstacles: 5 ms a step.
@@ -22,6 +22,7 @@ pub fn scene(garments: Vec<Garment>) -> Scene {
         gravity: DVec3::NEG_Z * GRAVITY,
         air: Air { density: 0.0, ..Air::default() },
         contact: Contact { thickness: 1e-3, ..Contact::default() },
+        dynamics: Dynamics::default(),
         handle_stiffness: 1e6,
         stages: StageSwitches { remeshing: false, ..StageSwitches::default() },
         garments,

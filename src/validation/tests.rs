@@ -60,3 +60,8 @@ fn errors_shrink_with_the_step() {
 fn a_split_that_is_collapsed_again_changes_nothing() {
     assert_holds("remesh-only");
 }
+
+#[test]
+fn a_patch_on_an_incline_sticks_and_slides_as_coulomb_says() {
+    assert_holds("incline/mu-0.3");
+}

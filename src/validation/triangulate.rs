@@ -75,7 +75,7 @@ mod tests {
     fn triangles_fill_the_hull_once() {
         let mut points = scattered(40);
         points.iter_mut().for_each(|p| *p = *p * 0.5 + 0.05);
-        let ring = (0..12).map(|k| DVec2::from_angle(f64::from(k) * 0.5236 + 0.1) * 0.4);
+        let ring = (0..12).map(|k| DVec2::from_angle(f64::from(k) * 0.52 + 0.1) * 0.4);
         points.extend(ring.clone());
         let area = |t: &[u32; 3]| signed_area(t.map(|k| points[k as usize]));
         let filled: f64 = delaunay(&points).iter().map(area).sum();
