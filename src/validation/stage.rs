@@ -24,6 +24,7 @@ pub fn scene(garments: Vec<Garment>) -> Scene {
         contact: Contact { thickness: 1e-3, ..Contact::default() },
         dynamics: Dynamics::default(),
         handle_stiffness: 1e6,
+        start_perturbation: 0.0,
         stages: StageSwitches { remeshing: false, ..StageSwitches::default() },
         garments,
         obstacles: Vec::new(),
