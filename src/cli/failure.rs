@@ -31,6 +31,10 @@ pub enum Failure {
     Check(String),
     #[error("interrupted; what is written so far is whole")]
     Interrupted(Signal),
+    #[error(
+        "interrupted; what is written so far is whole: the same command with --resume goes on from there"
+    )]
+    Paused(Signal),
 }
 
 impl Failure {
@@ -48,7 +52,7 @@ impl Failure {
             Failure::Render(_) => 1,
             Failure::Simulation(_) => 5,
             Failure::Check(_) => 6,
-            Failure::Interrupted(signal) => signal.exit_code(),
+            Failure::Interrupted(signal) | Failure::Paused(signal) => signal.exit_code(),
         }
     }
 }

@@ -87,7 +87,7 @@ impl Footage {
                 .map_err(Failure::from)?;
         let mut progress =
             Progress::new(u64::from(shot.frames.last) + 1, ProgressMode::detect(log));
-        shot.simulate(interrupt, |frame| {
+        shot.simulate(None, interrupt, |frame| {
             if frames.contains(&frame.number) {
                 writer.write(&frame).map_err(Failure::from)?;
             }

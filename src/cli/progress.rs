@@ -111,7 +111,6 @@ fn in_words(time: Duration) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::FrameReport;
 
     #[test]
     fn the_time_left_is_the_mean_frame_times_the_frames_to_come() {
@@ -142,15 +141,8 @@ mod tests {
             [ProgressMode::Bar, ProgressMode::Lines, ProgressMode::Log, ProgressMode::Silent]
         {
             let mut progress = Progress::new(2, mode);
-            let frame = Frame {
-                number: 0,
-                time: 0.0,
-                garments: Vec::new(),
-                obstacle_poses: Vec::new(),
-                report: FrameReport::default(),
-            };
-            progress.frame(&frame, 1001);
-            progress.frame(&frame, 1001);
+            progress.frame(&Frame::default(), 1001);
+            progress.frame(&Frame::default(), 1001);
             assert_eq!(progress.done, 2);
             progress.finish();
         }

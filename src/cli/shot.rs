@@ -50,20 +50,29 @@ impl Shot {
         self.scene.obstacles.iter().map(|o| o.surface.clone()).collect()
     }
 
-    /// Simulates frame 0 to the last wanted one and hands each to `visit`.
+    /// Simulates from frame 0, or the one after `start`, to the last wanted one and hands each to
+    /// `visit`.
     ///
     /// # Errors
     /// If the simulation fails, `visit` does, or the user asks to stop: after the frame in work.
     pub fn simulate(
         &self,
+        start: Option<&Frame>,
         interrupt: &Interrupt,
         mut visit: impl FnMut(Frame) -> Result<()>,
     ) -> Result<()> {
-        let (mut simulation, frame) =
-            Simulation::start(self.scene.clone(), self.settings).map_err(Failure::from)?;
-        log_warnings(&frame);
-        visit(frame)?;
-        for _ in 0..self.frames.last {
+        let (scene, settings) = (self.scene.clone(), self.settings);
+        let mut simulation = match start {
+            Some(frame) => Simulation::from_frame(scene, settings, frame).map_err(Failure::from)?,
+            None => {
+                let (simulation, frame) =
+                    Simulation::start(scene, settings).map_err(Failure::from)?;
+                log_warnings(&frame);
+                visit(frame)?;
+                simulation
+            }
+        };
+        for _ in start.map_or(0, |frame| frame.number)..self.frames.last {
             if let Some(signal) = interrupt.requested() {
                 return Err(Failure::Interrupted(signal).into());
             }

@@ -69,8 +69,7 @@ mod tests {
         for (number, cpu_seconds) in [(0, 9.0), (1, 1.0), (2, 2.0)] {
             let stages = StageSeconds { dynamics: 0.9, view: 0.1, ..StageSeconds::default() };
             let report = FrameReport { stages, cpu_seconds, ..FrameReport::default() };
-            let (garments, obstacle_poses) = (Vec::new(), Vec::new());
-            summary.add(&Frame { number, time: 0.0, garments, obstacle_poses, report }, 8);
+            summary.add(&Frame { number, report, ..Frame::default() }, 8);
         }
         let text = summary.to_string();
         assert!(text.starts_with("2 frames") && text.contains("1.500 CPU s"), "{text}");

@@ -30,6 +30,8 @@ pub struct System {
     pub(super) hinge_slots: Vec<HingeSlots>,
     pub(super) frozen: FrozenStiffness,
     pub(super) matrix: BlockMatrix,
+    /// Whether the pattern holds more pairs than the elements need.
+    has_extra_pairs: bool,
     pub(super) right_side: Vec<DVec3>,
     /// The last solution (m/s).
     pub(super) change: Vec<DVec3>,
@@ -95,6 +97,7 @@ impl System {
             hinge_slots: Vec::new(),
             frozen: FrozenStiffness::default(),
             matrix: BlockMatrix::zero(empty),
+            has_extra_pairs: false,
             right_side: Vec::new(),
             change: Vec::new(),
             product: Vec::new(),
@@ -123,6 +126,14 @@ impl System {
 
     pub fn into_solver(self) -> LinearSolver {
         self.solver
+    }
+
+    /// Makes what follows independent of the steps so far. An analysis may stay: it is a function
+    /// of its pattern.
+    pub fn forget_the_past(&mut self) {
+        if self.has_extra_pairs {
+            self.set_pattern(&[]);
+        }
     }
 
     pub fn node_count(&self) -> usize {
@@ -216,6 +227,7 @@ impl System {
         self.hinge_slots =
             self.hinges.iter().map(|hinge| HingeSlots::new(hinge, &pattern)).collect();
         self.matrix = BlockMatrix::zero(pattern);
+        self.has_extra_pairs = !extra.is_empty();
     }
 
     fn append(&mut self, mesh: &Mesh, fabric: &Fabric) {

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use crate::mesh::{Mesh, RawMesh};
 use crate::shot::View;
-use crate::sim::{Frame, FrameReport};
+use crate::sim::Frame;
 
 /// A camera that looks at a point, z up.
 pub fn look_at(eye: DVec3, target: DVec3, fov_y_deg: f64, resolution: [u32; 2]) -> View {
@@ -68,11 +68,5 @@ pub fn square(height: f64, view_factor: f64) -> Mesh {
 }
 
 pub fn frame(garments: impl IntoIterator<Item = Mesh>) -> Frame {
-    Frame {
-        number: 0,
-        time: 0.0,
-        garments: garments.into_iter().map(Arc::new).collect(),
-        obstacle_poses: Vec::new(),
-        report: FrameReport::default(),
-    }
+    Frame { garments: garments.into_iter().map(Arc::new).collect(), ..Frame::default() }
 }

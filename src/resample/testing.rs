@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use crate::mesh::{Mesh, RawMesh};
 use crate::shot::View;
-use crate::sim::{Frame, FrameReport};
+use crate::sim::Frame;
 
 /// A square of 1 m in the plane z = 0 from the origin, of so many columns and rows; material
 /// positions are x and y.
@@ -45,13 +45,7 @@ pub fn stretched(mesh: &Mesh) -> Mesh {
 }
 
 pub fn frame(garments: impl IntoIterator<Item = Mesh>) -> Frame {
-    Frame {
-        number: 0,
-        time: 0.0,
-        garments: garments.into_iter().map(Arc::new).collect(),
-        obstacle_poses: Vec::new(),
-        report: FrameReport::default(),
-    }
+    Frame { garments: garments.into_iter().map(Arc::new).collect(), ..Frame::default() }
 }
 
 /// A camera two metres above the middle of the sheet that looks down, x to the right, and sees

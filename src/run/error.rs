@@ -26,8 +26,13 @@ pub enum RunError {
     NotARun { path: PathBuf },
     #[error("\"{}\" is not empty and not a run folder: choose another folder", path.display())]
     Occupied { path: PathBuf },
-    #[error("\"{}\" already holds a run: replace it with --overwrite or choose another folder", path.display())]
+    #[error(
+        "\"{}\" already holds a run: go on with it by --resume, replace it with --overwrite or choose another folder",
+        path.display()
+    )]
     AlreadyARun { path: PathBuf },
+    #[error("\"{}\" is being written by another program", path.display())]
+    InUse { path: PathBuf },
     #[error("\"{}\" has no frame {number}: {}", path.display(), held(*.first_and_last))]
     NoSuchFrame { path: PathBuf, number: u32, first_and_last: Option<[u32; 2]> },
     #[error("\"{}\" holds frame {found}, not frame {expected}", path.display())]
@@ -37,6 +42,16 @@ pub enum RunError {
         path.display()
     )]
     OtherInput { path: PathBuf, found: String, expected: String },
+    #[error(
+        "\"{}\" was begun by version {found} of this program, which has version {expected}: it may compute otherwise, so that the run can only be replaced, with --overwrite",
+        path.display()
+    )]
+    OtherVersion { path: PathBuf, found: String, expected: String },
+    #[error(
+        "\"{}\" holds frame {held}, but not frame {wanted} to begin with: ask for frames from {held} on with --frames, or replace the run with --overwrite",
+        path.display()
+    )]
+    BeginsLater { path: PathBuf, held: u32, wanted: u32 },
 }
 
 /// What is wrong with the bytes of a stored state.
@@ -71,7 +86,16 @@ pub enum StateError {
 impl RunError {
     /// True if what was given is no run, a damaged one or the wrong one; false if the system failed.
     pub fn is_bad_input(&self) -> bool {
-        !matches!(self, RunError::Io { .. })
+        !matches!(self, RunError::Io { .. } | RunError::InUse { .. })
+    }
+
+    /// True if a file is not what was written under its name.
+    pub(super) fn is_damage(&self) -> bool {
+        match self {
+            RunError::State { source, .. } => !matches!(source, StateError::Version { .. }),
+            RunError::WrongFrame { .. } => true,
+            _ => false,
+        }
     }
 
     pub(super) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self + use<> {

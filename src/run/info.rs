@@ -37,8 +37,8 @@ pub struct RunInfo {
     pub cpu_features: Vec<String>,
     /// Name of the graphics adapter; `None` if none was used.
     pub adapter: Option<String>,
-    /// The shot as resolved, viewers included, so that the run can be drawn and resumed without
-    /// the shot's file.
+    /// The shot as resolved, viewers included, so that the run can be drawn without the shot's
+    /// file.
     pub settings: Value,
 }
 

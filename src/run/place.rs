@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::lock::Lock;
 use super::{RunError, RunInfo};
 
 /// The names within one run folder.
@@ -17,6 +18,11 @@ const PARTIAL: &str = "partial";
 impl Place {
     pub fn info(&self) -> PathBuf {
         self.dir.join("run.json")
+    }
+
+    /// Here only while a program writes the run, and after it was killed.
+    pub fn lock(&self) -> PathBuf {
+        self.dir.join("run.lock")
     }
 
     pub fn stats(&self) -> PathBuf {
@@ -58,45 +64,88 @@ impl Place {
         Ok(numbers)
     }
 
-    /// Makes sure that a new run can be put here, and that nothing foreign is lost.
-    pub fn claim(&self, overwrite: bool) -> Result<(), RunError> {
-        let path = || self.dir.clone();
+    /// Makes room for a new run, and sure that nothing foreign is lost.
+    pub fn claim(&self, overwrite: bool) -> Result<Lock, RunError> {
+        self.check_free(overwrite)?;
+        let lock = Lock::take(&self.lock())?;
+        // Another program may have begun a run in between.
+        self.check_free(overwrite)?;
+        self.clear()?;
+        Ok(lock)
+    }
+
+    fn check_free(&self, overwrite: bool) -> Result<(), RunError> {
         if RunInfo::is_at(&self.info()) {
-            return if overwrite {
-                self.clear()
-            } else {
-                Err(RunError::AlreadyARun { path: path() })
-            };
+            let path = self.dir.clone();
+            return if overwrite { Ok(()) } else { Err(RunError::AlreadyARun { path }) };
         }
         fs::create_dir_all(&self.dir).map_err(RunError::io("create", &self.dir))?;
-        match names_in(&self.dir)?.is_empty() {
-            true => Ok(()),
-            false => Err(RunError::Occupied { path: path() }),
+        if names_in(&self.dir)?.is_empty() || self.is_begun()? {
+            Ok(())
+        } else {
+            Err(RunError::Occupied { path: self.dir.clone() })
         }
     }
 
-    /// Removes what a run writes, and nothing else. `run.json` goes last: without it the rest
-    /// would no longer be known for a run.
+    /// True if the folder holds nothing but what a program leaves that is killed before `run.json`
+    /// is in place.
+    pub fn is_begun(&self) -> Result<bool, RunError> {
+        let names = names_in(&self.dir)?;
+        let files = [self.stats(), self.obstacles(), self.frames(), self.objs()];
+        let is_ours = |name: &String| {
+            let path = self.dir.join(without_partial(name));
+            path == self.lock() || files.contains(&path) || self.is_pending_info(name)
+        };
+        let is_marked =
+            |name: &String| self.is_pending_info(name) || self.dir.join(name) == self.lock();
+        Ok(names.iter().any(is_marked) && names.iter().all(is_ours))
+    }
+
+    fn is_pending_info(&self, name: &str) -> bool {
+        self.dir.join(name) == partial(&self.info())
+    }
+
+    /// Removes what a run writes, and nothing else. `run.json` is put aside first: a run half
+    /// removed is none, and the folder still known for its remains.
     fn clear(&self) -> Result<(), RunError> {
-        for (dir, is_ours) in [
-            (self.frames(), is_state_name as fn(&str) -> bool),
-            (self.objs(), is_obj_name as fn(&str) -> bool),
-        ] {
-            for name in names_in(&dir)?.iter().filter(|name| is_ours(name)) {
-                remove(&dir.join(name))?;
+        let info = self.info();
+        if info.exists() {
+            fs::rename(&info, partial(&info)).map_err(RunError::io("replace", &info))?;
+        }
+        self.forget_after(None, 0)?;
+        self.remove_partials()?;
+        remove(&self.stats())?;
+        remove(&self.obstacles())
+    }
+
+    /// Removes states and OBJ files after frame `last`, or all. Frame 0 is shown as `first_frame`.
+    pub fn forget_after(&self, last: Option<u32>, first_frame: i64) -> Result<(), RunError> {
+        let is_later = |number: i64| last.is_none_or(|last| number > i64::from(last));
+        // The last first: what a kill leaves of them has no gap.
+        for name in names_in(&self.frames())?.iter().rev() {
+            if frame_number(name).is_some_and(|number| is_later(i64::from(number))) {
+                remove(&self.frames().join(name))?;
             }
         }
-        remove(&self.stats())?;
-        remove(&self.obstacles())?;
-        remove(&self.info())
+        for name in names_in(&self.objs())? {
+            if obj_frame(&name).is_some_and(|shown| is_later(shown.saturating_sub(first_frame))) {
+                remove(&self.objs().join(name))?;
+            }
+        }
+        Ok(())
     }
 
-    /// Removes states and stray temporary files after frame `last`.
-    pub fn forget_after(&self, last: u32) -> Result<(), RunError> {
-        for name in names_in(&self.frames())? {
-            let later = frame_number(&name).is_some_and(|number| number > last);
-            if later || (is_state_name(&name) && name.ends_with(PARTIAL)) {
-                remove(&self.frames().join(name))?;
+    /// Removes temporary files that an interruption has left, but for that of `run.json`.
+    pub fn remove_partials(&self) -> Result<(), RunError> {
+        for (dir, is_ours) in [
+            (self.frames(), (|name| frame_number(name).is_some()) as fn(&str) -> bool),
+            (self.objs(), |name| obj_frame(name).is_some()),
+            (self.dir.clone(), |name| ["stats.csv", "obstacles.bin"].contains(&name)),
+        ] {
+            for name in names_in(&dir)? {
+                if is_partial(&name) && is_ours(without_partial(&name)) {
+                    remove(&dir.join(name))?;
+                }
             }
         }
         Ok(())
@@ -105,13 +154,18 @@ impl Place {
 
 /// Writes a file under a temporary name and renames it.
 pub(super) fn write_whole(path: &Path, contents: &[u8]) -> Result<(), RunError> {
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".");
-    partial.push(PARTIAL);
-    let partial = PathBuf::from(partial);
+    let partial = partial(path);
     fs::write(&partial, contents)
         .and_then(|()| fs::rename(&partial, path))
         .map_err(RunError::io("write", path))
+}
+
+/// The temporary name of a file.
+fn partial(path: &Path) -> PathBuf {
+    let mut partial = path.as_os_str().to_owned();
+    partial.push(".");
+    partial.push(PARTIAL);
+    PathBuf::from(partial)
 }
 
 fn remove(path: &Path) -> Result<(), RunError> {
@@ -149,18 +203,15 @@ fn without_partial(name: &str) -> &str {
     name.strip_suffix(PARTIAL).and_then(|name| name.strip_suffix('.')).unwrap_or(name)
 }
 
-fn is_state_name(name: &str) -> bool {
-    frame_number(without_partial(name)).is_some()
+fn is_partial(name: &str) -> bool {
+    without_partial(name) != name
 }
 
-/// `FFFF_CC.obj` or `FFFF_obs_PP.obj`.
-fn is_obj_name(name: &str) -> bool {
-    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    let Some((frame, item)) =
-        without_partial(name).strip_suffix(".obj").and_then(|stem| stem.split_once('_'))
-    else {
-        return false;
-    };
-    digits(frame.strip_prefix('-').unwrap_or(frame))
-        && digits(item.strip_prefix("obs_").unwrap_or(item))
+/// The frame shown in `FFFF_CC.obj` or `FFFF_obs_PP.obj`.
+fn obj_frame(name: &str) -> Option<i64> {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let (frame, item) = name.strip_suffix(".obj")?.split_once('_')?;
+    let is_ours = is_number(frame.strip_prefix('-').unwrap_or(frame))
+        && is_number(item.strip_prefix("obs_").unwrap_or(item));
+    is_ours.then(|| frame.parse().ok()).flatten()
 }

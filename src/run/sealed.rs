@@ -8,13 +8,20 @@ use sha2::{Digest, Sha256};
 use super::StateError;
 use super::bytes::{ByteReader, ByteWriter};
 
-/// The first eight bytes of a frame's state.
-pub(super) const FRAME_MAGIC: &[u8; 8] = b"SILKFRAM";
-/// The first eight bytes of the obstacles at rest.
-pub(super) const OBSTACLES_MAGIC: &[u8; 8] = b"SILKOBST";
+/// What is in an envelope.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kind {
+    /// The first eight bytes of the file.
+    pub magic: &'static [u8; 8],
+    /// Raised when the content changes; older versions stay readable.
+    pub version: u32,
+}
 
-/// Raised when the content changes; older versions stay readable.
-pub(super) const STATE_VERSION: u32 = 1;
+/// A frame's state. Version 2 has the anchors of handles.
+pub(super) const FRAME: Kind = Kind { magic: b"SILKFRAM", version: 2 };
+
+/// The obstacles at rest.
+pub(super) const OBSTACLES: Kind = Kind { magic: b"SILKOBST", version: 1 };
 
 /// zstd's own default: mantissas hardly compress, so that more effort would buy little.
 const COMPRESSION_LEVEL: i32 = 3;
@@ -23,11 +30,11 @@ const COMPRESSION_LEVEL: i32 = 3;
 const PREFIX_LENGTH: usize = 32;
 
 /// Puts content into its envelope.
-pub(super) fn seal(magic: &[u8; 8], content: &[u8]) -> Result<Vec<u8>, std::io::Error> {
+pub(super) fn seal(kind: Kind, content: &[u8]) -> Result<Vec<u8>, std::io::Error> {
     let stored = zstd::bulk::compress(content, COMPRESSION_LEVEL)?;
     let mut file = ByteWriter::default();
-    file.items(magic);
-    file.put(STATE_VERSION);
+    file.items(kind.magic);
+    file.put(kind.version);
     file.put(0u32);
     file.put(content.len() as u64);
     file.put(stored.len() as u64);
@@ -40,32 +47,55 @@ pub(super) fn seal(magic: &[u8; 8], content: &[u8]) -> Result<Vec<u8>, std::io::
 }
 
 /// The content of an envelope, and the version it is written in.
-pub(super) fn unseal(magic: &[u8; 8], file: &[u8]) -> Result<(u32, Vec<u8>), StateError> {
-    let mut reader = ByteReader::new(file);
-    let found = reader.take("file type", magic.len())?;
-    if found != magic {
-        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        return Err(StateError::NotAState { expected: text(magic), found: text(found) });
+pub(super) fn unseal(kind: Kind, file: &[u8]) -> Result<(u32, Vec<u8>), StateError> {
+    let envelope = Envelope::open(kind, file)?;
+    Ok((envelope.version, decompress(envelope.stored, envelope.full_length)?))
+}
+
+/// Compares a file with its checksum, without a look at the content.
+///
+/// # Errors
+/// If the file is damaged, of another kind or of a later version.
+pub(super) fn check_seal(kind: Kind, file: &[u8]) -> Result<(), StateError> {
+    Envelope::open(kind, file).map(|_| ())
+}
+
+/// An envelope whose checksum is right.
+struct Envelope<'a> {
+    version: u32,
+    full_length: u64,
+    /// The compressed content.
+    stored: &'a [u8],
+}
+
+impl<'a> Envelope<'a> {
+    fn open(kind: Kind, file: &'a [u8]) -> Result<Self, StateError> {
+        let mut reader = ByteReader::new(file);
+        let found = reader.take("file type", kind.magic.len())?;
+        if found != kind.magic {
+            let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+            return Err(StateError::NotAState { expected: text(kind.magic), found: text(found) });
+        }
+        // Before the checksum, whose place a later version may change.
+        let version: u32 = reader.get("format version")?;
+        if !(1..=kind.version).contains(&version) {
+            return Err(StateError::Version { found: version, known: kind.version });
+        }
+        let _reserved: u32 = reader.get("reserved field")?;
+        let full_length: u64 = reader.get("full length")?;
+        let stored_length: u64 = reader.get("stored length")?;
+        let expected = reader.take("checksum", 32)?;
+        let stored = &file[PREFIX_LENGTH + 32..];
+        if stored.len() as u64 != stored_length {
+            let found = stored.len() as u64;
+            return Err(StateError::StoredLength { found, expected: stored_length });
+        }
+        let found = checksum(&file[..PREFIX_LENGTH], stored);
+        if found != expected {
+            return Err(StateError::Checksum { found: hex(&found), expected: hex(expected) });
+        }
+        Ok(Self { version, full_length, stored })
     }
-    // Before the checksum, whose place a later version may change.
-    let version: u32 = reader.get("format version")?;
-    if !(1..=STATE_VERSION).contains(&version) {
-        return Err(StateError::Version { found: version, known: STATE_VERSION });
-    }
-    let _reserved: u32 = reader.get("reserved field")?;
-    let full_length: u64 = reader.get("full length")?;
-    let stored_length: u64 = reader.get("stored length")?;
-    let expected = reader.take("checksum", 32)?;
-    let stored = &file[PREFIX_LENGTH + 32..];
-    if stored.len() as u64 != stored_length {
-        let found = stored.len() as u64;
-        return Err(StateError::StoredLength { found, expected: stored_length });
-    }
-    let found = checksum(&file[..PREFIX_LENGTH], stored);
-    if found != expected {
-        return Err(StateError::Checksum { found: hex(&found), expected: hex(expected) });
-    }
-    Ok((version, decompress(stored, full_length)?))
 }
 
 /// Stops soon after the promised length, whatever the stream would grow to.

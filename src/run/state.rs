@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use super::StateError;
 use super::bytes::{ByteReader, ByteWriter};
 use crate::mesh::{Mesh, MeshParts, NodeOrigin};
@@ -10,7 +12,7 @@ use crate::sim::{Frame, FrameReport, StageCounts, StageSeconds};
 
 /// A frame's content, without the envelope.
 pub(super) fn frame_bytes(frame: &Frame) -> Vec<u8> {
-    let Frame { number, time, garments, obstacle_poses, report } = frame;
+    let Frame { number, time, garments, obstacle_poses, handle_anchors, report } = frame;
     let mut writer = ByteWriter::default();
     writer.put(*number);
     writer.put(*time);
@@ -21,11 +23,13 @@ pub(super) fn frame_bytes(frame: &Frame) -> Vec<u8> {
     }
     writer.count(obstacle_poses.len());
     writer.items(obstacle_poses);
+    put_anchors(&mut writer, handle_anchors);
     writer.into_bytes()
 }
 
-/// The frame in a content of version 1.
-pub(super) fn frame_from_bytes(bytes: &[u8]) -> Result<Frame, StateError> {
+/// The frame in a content of a known version. In version 1 there are no anchors: nothing that has
+/// handles can go on from it.
+pub(super) fn frame_from_bytes(version: u32, bytes: &[u8]) -> Result<Frame, StateError> {
     let mut reader = ByteReader::new(bytes);
     let number = reader.get("frame number")?;
     let time = reader.get("time")?;
@@ -41,8 +45,33 @@ pub(super) fn frame_from_bytes(bytes: &[u8]) -> Result<Frame, StateError> {
         .collect::<Result<_, StateError>>()?;
     let pose_count = reader.count("obstacle count")?;
     let obstacle_poses = reader.items("obstacle poses", pose_count)?;
+    let handle_anchors = if version < 2 { Vec::new() } else { get_anchors(&mut reader)? };
     reader.end()?;
-    Ok(Frame { number, time, garments, obstacle_poses, report })
+    Ok(Frame { number, time, garments, obstacle_poses, handle_anchors, report })
+}
+
+fn put_anchors(writer: &mut ByteWriter, handles: &[Vec<Option<DVec3>>]) {
+    writer.count(handles.len());
+    for anchors in handles {
+        writer.count(anchors.len());
+        for anchor in anchors {
+            writer.put(u8::from(anchor.is_some()));
+        }
+        for anchor in anchors {
+            writer.put(anchor.unwrap_or(DVec3::ZERO));
+        }
+    }
+}
+
+fn get_anchors(reader: &mut ByteReader) -> Result<Vec<Vec<Option<DVec3>>>, StateError> {
+    let handle_count = reader.count("handle count")?;
+    let handle = |_| {
+        let count = reader.count("held node count")?;
+        let taken: Vec<u8> = reader.items("anchor flags", count)?;
+        let points: Vec<DVec3> = reader.items("anchors", count)?;
+        Ok(taken.into_iter().zip(points).map(|(taken, x)| (taken != 0).then_some(x)).collect())
+    };
+    (0..handle_count).map(handle).collect()
 }
 
 fn put_report(writer: &mut ByteWriter, report: &FrameReport) {
@@ -205,8 +234,11 @@ pub(super) fn obstacle_bytes(obstacles: &[Arc<Surface>]) -> Vec<u8> {
     writer.into_bytes()
 }
 
-/// The obstacles in a content of version 1.
-pub(super) fn obstacles_from_bytes(bytes: &[u8]) -> Result<Vec<Arc<Surface>>, StateError> {
+/// The obstacles in a content of version 1, the only one so far.
+pub(super) fn obstacles_from_bytes(
+    _version: u32,
+    bytes: &[u8],
+) -> Result<Vec<Arc<Surface>>, StateError> {
     let mut reader = ByteReader::new(bytes);
     let obstacle_count = reader.count("obstacle count")?;
     let obstacles = (0..obstacle_count)

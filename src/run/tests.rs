@@ -8,13 +8,15 @@ use std::sync::Arc;
 use glam::{DQuat, DVec2, DVec3};
 use serde_json::json;
 
-use super::sealed::{FRAME_MAGIC, seal, unseal};
+use super::sealed::{FRAME, Kind, seal, unseal};
 use super::state::frame_bytes;
 use super::*;
 use crate::math::SymTensor2;
 use crate::mesh::{Id, Mesh, RawMesh, VertexId};
 use crate::scene::{Pose, Surface};
 use crate::sim::{Frame, FrameReport, StageCounts, StageSeconds};
+
+mod resumed;
 
 fn info() -> RunInfo {
     let settings = json!({"fps": 25.0, "viewers": [{"name": "close-up"}]});
@@ -67,6 +69,7 @@ fn frame(number: u32) -> Frame {
             rotation: DQuat::from_rotation_z(0.3),
             translation: DVec3::Z,
         }],
+        handle_anchors: vec![vec![None, Some(DVec3::new(-0.0, 1.0 / 3.0, 2.0))], Vec::new()],
         report: FrameReport {
             stages,
             counts: StageCounts { contacts: 5, splits: 2, ..StageCounts::default() },
@@ -201,19 +204,19 @@ fn obj_files_carry_shown_frame_numbers_and_read_back_to_the_same_bits() {
 
 #[test]
 fn a_state_cut_short_anywhere_is_refused() {
-    let file = seal(FRAME_MAGIC, &frame_bytes(&frame(1))).unwrap();
+    let file = seal(FRAME, &frame_bytes(&frame(1))).unwrap();
     for length in 0..file.len() {
-        assert!(unseal(FRAME_MAGIC, &file[..length]).is_err(), "{length} bytes");
+        assert!(unseal(FRAME, &file[..length]).is_err(), "{length} bytes");
     }
 }
 
 #[test]
 fn a_state_with_any_byte_changed_is_refused() {
-    let file = seal(FRAME_MAGIC, &frame_bytes(&frame(1))).unwrap();
+    let file = seal(FRAME, &frame_bytes(&frame(1))).unwrap();
     for index in 0..file.len() {
         let mut damaged = file.clone();
         damaged[index] ^= 0x10;
-        assert!(unseal(FRAME_MAGIC, &damaged).is_err(), "byte {index}");
+        assert!(unseal(FRAME, &damaged).is_err(), "byte {index}");
     }
 }
 
@@ -221,9 +224,9 @@ fn a_state_with_any_byte_changed_is_refused() {
 fn contents_cut_short_or_too_long_are_refused_even_with_a_right_checksum() {
     let content = frame_bytes(&frame(1));
     for length in 0..content.len() {
-        assert!(state::frame_from_bytes(&content[..length]).is_err(), "{length} bytes");
+        assert!(state::frame_from_bytes(2, &content[..length]).is_err(), "{length} bytes");
     }
-    let surplus = state::frame_from_bytes(&[&content[..], b"x"].concat()).unwrap_err();
+    let surplus = state::frame_from_bytes(2, &[&content[..], b"x"].concat()).unwrap_err();
     assert_eq!(surplus.to_string(), "1 bytes follow the end of the state");
 }
 
@@ -247,7 +250,7 @@ fn damage_is_reported_with_file_thing_and_value() {
     later[8] = 9;
     assert_eq!(
         message(&later),
-        cannot_read.clone() + "it has format version 9; this program reads versions 1 to 1"
+        cannot_read.clone() + "it has format version 9; this program reads versions 1 to 2"
     );
     let mut damaged = whole.clone();
     *damaged.last_mut().unwrap() ^= 1;
@@ -322,39 +325,4 @@ fn a_frame_that_cannot_be_written_is_an_error() {
     fs::remove_dir_all(dir.path().join("frames")).unwrap();
     let error = writer.write(&frame(0)).unwrap_err();
     assert!(chain(&error).starts_with("cannot write \""), "{}", chain(&error));
-}
-
-#[test]
-fn a_resumed_run_has_the_files_of_a_straight_one() {
-    let (straight, dir) = (run(5), run(4));
-    // As if interrupted: a half-written state, a row cut short, the row before it lost.
-    fs::write(dir.path().join("frames/000004.sfr.partial"), "half").unwrap();
-    let stats = dir.path().join("stats.csv");
-    let text = fs::read_to_string(&stats).unwrap();
-    let cut = text.find("1003,").unwrap() + 7;
-    fs::write(&stats, &text[..cut]).unwrap();
-
-    let reader = RunReader::open(dir.path()).unwrap();
-    let mut writer = RunWriter::resume(&reader, &info(), 2, WriteOptions::default()).unwrap();
-    writer.write(&frame(3)).unwrap();
-    writer.write(&frame(4)).unwrap();
-    writer.finish().unwrap();
-    assert_eq!(names(&dir.path().join("frames")), names(&straight.path().join("frames")));
-    for name in ["frames/000003.sfr", "frames/000004.sfr"] {
-        let read = |dir: &tempfile::TempDir| fs::read(dir.path().join(name)).unwrap();
-        assert_eq!(read(&dir), read(&straight), "{name}");
-    }
-    let stats = |dir: &tempfile::TempDir| {
-        without_writing_time(&fs::read_to_string(dir.path().join("stats.csv")).unwrap())
-    };
-    assert_eq!(stats(&dir), stats(&straight));
-}
-
-#[test]
-fn a_run_is_not_resumed_with_other_input() {
-    let dir = run(2);
-    let reader = RunReader::open(dir.path()).unwrap();
-    let other = RunInfo { input_hash: "0".repeat(64), ..info() };
-    let error = RunWriter::resume(&reader, &other, 1, WriteOptions::default()).err().unwrap();
-    assert!(matches!(error, RunError::OtherInput { .. }));
 }

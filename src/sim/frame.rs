@@ -2,11 +2,15 @@
 
 use std::sync::Arc;
 
-use crate::mesh::Mesh;
-use crate::scene::Pose;
+use glam::DVec3;
 
-/// The state at the end of a frame. Never changes once published.
-#[derive(Clone, Debug)]
+use super::SimError;
+use crate::mesh::Mesh;
+use crate::scene::{Pose, Scene};
+
+/// The state at the end of a frame: all that the next one depends on besides shot and settings.
+/// Never changes once published.
+#[derive(Clone, Debug, Default)]
 pub struct Frame {
     /// Frames since the start; 0 is the start itself.
     pub number: u32,
@@ -16,6 +20,9 @@ pub struct Frame {
     pub garments: Vec<Arc<Mesh>>,
     /// World from obstacle space, in the order of the scene's obstacles.
     pub obstacle_poses: Vec<Pose>,
+    /// Per handle of the scene and node of it, where the node was when the handle took hold
+    /// (m, world); `None` while it has not.
+    pub handle_anchors: Vec<Vec<Option<DVec3>>>,
     pub report: FrameReport,
 }
 
@@ -30,6 +37,24 @@ impl Frame {
 
     pub fn node_count(&self) -> usize {
         self.garments.iter().map(|g| g.node_count()).sum()
+    }
+
+    /// # Errors
+    /// If there are more or fewer of anything than in the scene.
+    pub(super) fn check_belongs_to(&self, scene: &Scene) -> Result<(), SimError> {
+        let anchors = self.handle_anchors.iter().map(Vec::len);
+        let held = scene.handles.iter().map(|h| h.nodes.len());
+        for (what, found, expected) in [
+            ("garments", self.garments.len(), scene.garments.len()),
+            ("obstacles", self.obstacle_poses.len(), scene.obstacles.len()),
+            ("handles", self.handle_anchors.len(), scene.handles.len()),
+            ("nodes in handles", anchors.sum(), held.sum()),
+        ] {
+            if found != expected {
+                return Err(SimError::OtherScene { frame: self.number, what, found, expected });
+            }
+        }
+        Ok(())
     }
 }
 

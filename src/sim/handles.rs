@@ -10,7 +10,7 @@ use crate::scene::{Handle, Scene};
 
 /// Where each held node was when its handle took hold.
 pub struct Anchors {
-    /// Per handle and node of it.
+    /// Per handle and node of it, as in [`Frame::handle_anchors`](super::Frame::handle_anchors).
     points: Vec<Vec<Option<DVec3>>>,
 }
 
@@ -43,6 +43,15 @@ impl Anchors {
             handle.nodes.iter().map(place).collect()
         };
         Self { points: scene.handles.iter().map(of).collect() }
+    }
+
+    /// The anchors of a published frame.
+    pub fn published(points: &[Vec<Option<DVec3>>]) -> Self {
+        Self { points: points.to_vec() }
+    }
+
+    pub fn points(&self) -> &[Vec<Option<DVec3>>] {
+        &self.points
     }
 
     /// The springs of all handles that hold at a time (s). A node's target moves with the handle's

@@ -6,6 +6,13 @@
 //!           once             base metric -> view factor -> vertex metric -> remesh
 //!           publish          a frame that never changes again
 //! ```
+//!
+//! # From frame to frame
+//! The bits of a frame depend on the scene, the settings and the published frame before it, on
+//! nothing else: not on the frames before that one, nor on the number of threads. What a simulation
+//! keeps from frame to frame beyond that (what the solver knows of the matrix, the tree of faces)
+//! is a function of them or forgotten when a frame begins. So a simulation that is taken up from any
+//! of its frames goes on with the bits of one that never stopped.
 
 mod clock;
 mod frame;
@@ -80,6 +87,28 @@ impl Simulation {
         Ok((simulation, frame))
     }
 
+    /// Goes on from a published frame of the same scene and settings.
+    ///
+    /// # Errors
+    /// If the frame is that of another scene.
+    pub fn from_frame(
+        scene: Arc<Scene>,
+        settings: SimSettings,
+        frame: &Frame,
+    ) -> Result<Self, SimError> {
+        frame.check_belongs_to(&scene)?;
+        let garments: Vec<Mesh> = frame.garments.iter().map(|g| (**g).clone()).collect();
+        Ok(Self {
+            cloth: MovingCloth::new(&scene, &garments),
+            obstacles: Obstacles::new(&scene),
+            anchors: Anchors::published(&frame.handle_anchors),
+            scene,
+            settings,
+            garments,
+            frame: frame.number,
+        })
+    }
+
     /// Computes the next frame. On error the simulation stays where it was in the failed step and
     /// must not be advanced further.
     ///
@@ -88,6 +117,7 @@ impl Simulation {
     pub fn advance(&mut self) -> Result<Frame, SimError> {
         let mut clock = StageClock::start();
         let mut report = FrameReport::default();
+        self.cloth.forget_the_past(&self.scene, &self.garments, &mut clock);
         let (start, step_time) = (self.time(), self.scene.step_time());
         for step in 0..self.scene.steps_per_frame {
             let time = start + f64::from(step) * step_time;
@@ -145,6 +175,7 @@ impl Simulation {
             time: self.time(),
             garments: self.garments.iter().cloned().map(Arc::new).collect(),
             obstacle_poses: self.obstacle_poses(),
+            handle_anchors: self.anchors.points().to_vec(),
             report,
         }
     }
@@ -175,6 +206,17 @@ impl MovingCloth {
     fn renew(&mut self, scene: &Scene, garments: &[Mesh]) {
         let old = std::mem::replace(self, Self::new(scene, garments));
         self.system.set_solver(old.system.into_solver());
+    }
+
+    /// Becomes what a new one of the published garments would be. Which of several nearest faces
+    /// is found depends on the tree's shape, and how a solution is rounded on the matrix's pattern.
+    fn forget_the_past(&mut self, scene: &Scene, garments: &[Mesh], clock: &mut StageClock) {
+        self.state = StepState::gathered(&garments.iter().collect::<Vec<_>>());
+        if !scene.obstacles.is_empty() {
+            let tree = || FaceTree::new(&self.state.position, &self.faces);
+            self.tree = clock.time(Stage::Proximity, tree);
+        }
+        clock.time(Stage::Dynamics, || self.system.forget_the_past());
     }
 
     fn refit(&mut self) {

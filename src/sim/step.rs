@@ -17,6 +17,10 @@ pub enum SimError {
         "frame {frame}: the step at {time} s failed in {HALVINGS_MAX} halvings, down to {step_time:e} s: {cause}"
     )]
     Step { frame: u32, time: f64, step_time: f64, cause: StepError },
+    #[error(
+        "frame {frame} has {found} {what}, the scene has {expected}: it cannot go on from there"
+    )]
+    OtherScene { frame: u32, what: &'static str, found: usize, expected: usize },
 }
 
 /// What a step is for.

@@ -10,6 +10,8 @@ use crate::scene::{
 };
 use crate::shot::{CameraKey, CameraPath, Lens, Track};
 
+mod frame_to_frame;
+
 /// A one metre sheet of two by two cells in the plane z = 0.5.
 fn sheet() -> Mesh {
     let mut raw = RawMesh::default();

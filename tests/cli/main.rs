@@ -14,6 +14,7 @@ mod contact_sheet;
 mod program;
 mod reference;
 mod render;
+mod resume;
 mod same_bits;
 #[cfg(unix)]
 mod signals;

@@ -4,6 +4,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
 
 use super::program;
+use super::same_bits::assert_same;
 use super::small_shot::SmallShot;
 
 /// Starts a command, sends a signal once a frame is done, and returns its exit code and stderr.
@@ -47,6 +48,21 @@ fn a_simulation_that_is_told_to_stop_leaves_a_whole_run() {
         }
         let names = shot.names("run/frames");
         assert!(names.iter().all(|name| name.ends_with(".sfr")), "{names:?}");
+        assert_eq!(shot.names("run"), ["frames", "obstacles.bin", "run.json", "stats.csv"]);
+    }
+}
+
+#[test]
+fn a_simulation_that_was_told_to_stop_goes_on_with_the_same_bits() {
+    for signal in ["-INT", "-TERM"] {
+        let shot = SmallShot::new();
+        let line = "simulate shot.json --out run --frames 1000000";
+        let (_, text) = interrupted(&shot, line, signal);
+        assert!(text.contains("the same command with --resume goes on from there"), "{text}");
+        let last = shot.reader("run").last_frame().unwrap() + 2;
+        shot.run(&format!("simulate shot.json --out run --frames {last} --resume")).succeeds();
+        shot.run(&format!("simulate shot.json --out straight --frames {last}")).succeeds();
+        assert_same(&shot.reader("run"), &shot.reader("straight"));
     }
 }
 

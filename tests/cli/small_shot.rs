@@ -116,6 +116,15 @@ impl SmallShot {
         self.write(name, &text.replacen(from, to, 1));
     }
 
+    /// Lets the camera turn so far by frame 4 that half of the cloth is out of sight.
+    pub fn turn_the_camera(&self) {
+        self.replace(
+            "main.camera.json",
+            "[1.5, -3, 1.5], \"target\": [0.5,",
+            "[1.5, -3, 1.5], \"target\": [2.5,",
+        );
+    }
+
     pub fn run(&self, line: &str) -> Outcome {
         program::run(self.folder(), line)
     }

@@ -23,6 +23,7 @@ fn wrong_command_lines_are_refused_with_what_would_have_been_right() {
         ("simulate shot.json --out run --fps -24", &["-24 frames a second are not a rate above"]),
         ("simulate shot.json --out run --fps NaN", &["NaN frames a second"]),
         ("simulate shot.json --out run --set view.nu_out", &["path.to.field=value"]),
+        ("simulate shot.json --out run --resume --overwrite", &["'--resume'", "'--overwrite'"]),
         ("simulate . --out run", &["\".\" is a folder", "a shot is a file"]),
         ("render shot.json --out a --view side", &["'side'", "shot, witness, both"]),
         ("render shot.json --out a --every 0", &["0 is not in 1.."]),

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 use shotsilk::mesh::{Mesh, RawMesh};
 use shotsilk::scene::{Pose, Surface};
-use shotsilk::sim::{Frame, FrameReport};
+use shotsilk::sim::Frame;
 
 /// What a picture needs of a frame, in the world (m).
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -36,11 +36,9 @@ struct Obstacle {
 impl State {
     pub fn frame(&self) -> Frame {
         Frame {
-            number: 0,
-            time: 0.0,
             garments: self.garments.iter().map(|g| Arc::new(g.mesh())).collect(),
             obstacle_poses: vec![Pose::IDENTITY; self.obstacles.len()],
-            report: FrameReport::default(),
+            ..Frame::default()
         }
     }
 
