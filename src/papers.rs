@@ -62,3 +62,11 @@ pub enum FH12 {}
 /// Andersson, Nilsson, Akenine-Moeller, Oskarsson, Astroem, Fairchild: *FLIP: A Difference Evaluator
 /// for Alternating Images*, HPG 2020.
 pub enum FLIP20 {}
+
+/// Cuthill, McKee: *Reducing the Bandwidth of Sparse Symmetric Matrices*, ACM 1969; reversed as in
+/// George 1971.
+pub enum CM69 {}
+
+/// Meijerink, van der Vorst: *An Iterative Solution Method for Linear Systems of Which the
+/// Coefficient Matrix is a Symmetric M-Matrix*, Math. Comp. 1977.
+pub enum MV77 {}

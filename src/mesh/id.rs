@@ -148,6 +148,11 @@ impl<I: Id, T> IdVec<I, T> {
         self.items
     }
 
+    /// The items changed one by one.
+    pub fn map<U>(self, change: impl FnMut(T) -> U) -> IdVec<I, U> {
+        self.items.into_iter().map(change).collect()
+    }
+
     /// Drops the items for which `keep` is false, the order of the others unchanged.
     pub fn retain_by(&mut self, keep: impl Fn(I) -> bool) {
         let mut index = 0;

@@ -10,6 +10,7 @@ mod check;
 mod edit;
 mod id;
 mod measure;
+mod order;
 mod parts;
 mod walk;
 

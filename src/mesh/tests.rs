@@ -172,6 +172,41 @@ fn bad_meshes_are_refused_with_the_reason() {
 }
 
 #[test]
+fn the_local_order_renames_everything_and_changes_nothing() {
+    let mut mesh = Mesh::from_raw(&grid(6, true), &[3]).unwrap();
+    for node in mesh.node_ids() {
+        mesh.velocity[node] = mesh.position[node] * 2.0;
+    }
+    let ordered = mesh.clone().in_local_order();
+    ordered.check().unwrap();
+    let faces = |mesh: &Mesh| {
+        let mut faces: Vec<String> = mesh
+            .face_ids()
+            .map(|f| {
+                let corner = |c: CornerId| {
+                    let (v, n) = (mesh.vertex_at(c), mesh.node_at(c));
+                    let node = (mesh.position[n], mesh.velocity[n], mesh.node_origin(n));
+                    let across = mesh.opposite(c).map(|o| mesh.position[mesh.node_at(o)]);
+                    format!("{:?} {node:?} {across:?} {}", mesh.material(v), mesh.rest_angle(c))
+                };
+                format!("{:?}", f.corners().map(corner))
+            })
+            .collect();
+        faces.sort();
+        faces
+    };
+    assert_eq!(faces(&ordered), faces(&mesh));
+    let farthest = |mesh: &Mesh| {
+        let apart = |c| {
+            let [a, b] = mesh.edge_nodes(c);
+            a.index().abs_diff(b.index())
+        };
+        mesh.edges().map(apart).max().unwrap()
+    };
+    assert!(farthest(&ordered) <= 2 * 7, "neighbours are {} apart", farthest(&ordered));
+}
+
+#[test]
 fn a_face_that_is_inside_out_in_the_world_is_named() {
     // Its material corners are counter-clockwise, but it runs along shared edges the wrong way.
     let mut raw = grid(1, false);

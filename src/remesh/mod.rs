@@ -45,8 +45,15 @@ pub struct RemeshReport {
     pub invalid_edges: usize,
 }
 
+impl RemeshReport {
+    pub fn edit_count(&self) -> usize {
+        self.splits + self.collapses + self.flips
+    }
+}
+
 /// Remeshes to the vertex metrics. An edit that the guard refuses is left out; splits leave the
-/// surface as it is and are never refused.
+/// surface as it is and are never refused. If there was any, nodes, vertices and faces are numbered
+/// anew ([`Mesh::in_local_order`]).
 pub fn remesh(
     mesh: Mesh,
     settings: &RemeshSettings,
@@ -64,7 +71,9 @@ pub fn remesh(
     // A collapse, and the flips after it, make only valid edges; what the limit of faces left is
     // all that can remain.
     remesher.report.invalid_edges = remesher.invalid_edge_count();
-    (remesher.editor.finish(), remesher.report)
+    let Remesher { editor, report, .. } = remesher;
+    let mesh = editor.finish();
+    (if report.edit_count() > 0 { mesh.in_local_order() } else { mesh }, report)
 }
 
 struct Remesher<'a> {

@@ -69,7 +69,8 @@ impl Simulation {
     pub fn start(scene: Arc<Scene>, settings: SimSettings) -> Result<(Self, Frame), SimError> {
         let mut clock = StageClock::start();
         let obstacles = Obstacles::new(&scene);
-        let garments: Vec<Mesh> = scene.garments.iter().map(|g| g.mesh.clone()).collect();
+        let garments: Vec<Mesh> =
+            scene.garments.iter().map(|g| g.mesh.clone().in_local_order()).collect();
         let mut simulation = Self {
             cloth: MovingCloth::new(&scene, &garments),
             anchors: Anchors::new(&scene),

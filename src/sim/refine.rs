@@ -25,7 +25,7 @@ impl Simulation {
             let base = clock.time(Stage::Sizing, || self.base_metric(index, &planes));
             clock.time(Stage::View, || self.set_metric(index, base));
             let done = clock.time(Stage::Remesh, || self.remesh(index, &obstacles));
-            edits += done.splits + done.collapses + done.flips;
+            edits += done.edit_count();
             self.note(index, done, report);
         }
         if edits > 0 {
