@@ -1,4 +1,4 @@
-//! What one step costs, by part: assembly, factorisation, solve, and the whole.
+//! What one step costs, by part: assembly, solution, and the whole.
 
 use std::hint::black_box;
 
@@ -6,7 +6,7 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::{DVec2, DVec3};
 use shotsilk::dynamics::{LinearSolver, StepForces, StepState, System};
 use shotsilk::mesh::{Mesh, RawMesh};
-use shotsilk::scene::{Air, Fabric, MeasuredFabric};
+use shotsilk::scene::{Air, Fabric, MeasuredFabric, SolverChoice};
 
 const DT: f64 = 5e-3;
 const NODE_COUNTS: [u32; 3] = [1_000, 5_000, 20_000];
@@ -65,16 +65,21 @@ fn steps(criterion: &mut Criterion) {
             b.iter(|| system.assemble(black_box(&state), &forces, DT));
         });
         let (matrix, right_side) = system.linear_system();
-        group.bench_function(BenchmarkId::new("analyse_and_factorize", nodes), |b| {
-            b.iter(|| LinearSolver::default().factorize(matrix).expect("positive definite"));
-        });
-        let mut solver = LinearSolver::default();
-        group.bench_function(BenchmarkId::new("factorize", nodes), |b| {
-            b.iter(|| solver.factorize(matrix).expect("positive definite"));
-        });
-        group.bench_function(BenchmarkId::new("solve", nodes), |b| {
-            b.iter(|| solver.solve(&mut black_box(right_side.to_vec())));
-        });
+        for (name, choice) in
+            [("solve_auto", SolverChoice::Auto), ("solve_direct", SolverChoice::Direct)]
+        {
+            let mut solver = LinearSolver::default();
+            solver.set_choice(choice);
+            group.bench_function(BenchmarkId::new(name, nodes), |b| {
+                b.iter(|| {
+                    solver.expect_new_matrix();
+                    let mut change = vec![DVec3::ZERO; right_side.len()];
+                    solver
+                        .solve(matrix, black_box(right_side), &mut change)
+                        .expect("it is definite");
+                });
+            });
+        }
         group.bench_function(BenchmarkId::new("whole", nodes), |b| {
             b.iter(|| system.step(&mut state.clone(), &forces, DT).expect("the step is taken"));
         });

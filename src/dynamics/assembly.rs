@@ -24,6 +24,8 @@ impl System {
         self.make_room_for(forces.contacts);
         let degenerate_hinges = self.assemble_at(&Iterate::at_start(state), state, forces, dt);
         self.refer_to(&state.velocity);
+        // The solution where nothing but gravity acts.
+        self.change.fill(forces.gravity * dt);
         degenerate_hinges
     }
 
@@ -40,6 +42,7 @@ impl System {
     ) -> usize {
         self.matrix.set_zero();
         self.touched.clear();
+        self.solver.expect_new_matrix();
         self.add_inertia(iterate, start, forces.gravity, dt);
         self.add_stretch(iterate, start, dt);
         let degenerate_hinges = self.add_bending(iterate, start, dt);

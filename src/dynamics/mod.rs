@@ -26,7 +26,6 @@ pub mod matrix;
 mod newton;
 #[cfg(test)]
 mod newton_tests;
-mod permuted;
 mod plate;
 pub mod solve;
 mod step;
@@ -40,7 +39,7 @@ pub mod wind;
 
 pub use contact::ContactPoint;
 pub use handles::HandleSpring;
-pub use solve::{LinearSolver, SolveError};
+pub use solve::{LinearSolver, SolveError, SolverCounts};
 pub use step::{Convergence, StepError, StepForces, StepOutcome, StepState};
 pub use system::System;
 

@@ -81,6 +81,7 @@ impl System {
         let (degenerate, active) = self.balance(iterate, start, forces, contacts, dt);
         outcome.degenerate_hinges = outcome.degenerate_hinges.max(degenerate);
         outcome.active_contacts = active;
+        self.change.fill(DVec3::ZERO);
         self.solve_change()
     }
 

@@ -107,7 +107,11 @@ fn one_iteration_is_the_linearised_step() {
     let (mut system, state) = two_garments(0.01, 23);
     let (mut linearised, mut once) = (state.clone(), state.clone());
     system.step_frozen(&mut linearised, &StepForces::NONE, DT).unwrap();
-    system.set_dynamics(Dynamics { iterations: 2, tolerance: f64::INFINITY });
+    system.set_dynamics(Dynamics {
+        iterations: 2,
+        tolerance: f64::INFINITY,
+        ..Dynamics::default()
+    });
     let at = Iterate::at_start(&state);
     let mut outcome = StepOutcome::default();
     system.first_direction(&state, &StepForces::NONE, DT, &mut outcome).unwrap();
@@ -120,7 +124,7 @@ fn one_iteration_is_the_linearised_step() {
 #[test]
 fn iterations_arrive_where_forces_balance_even_from_a_crumpled_state_at_large_steps() {
     let (mut system, mut state) = system_of(&[&sheet(8, 0.4, 0.2)], 0.0);
-    system.set_dynamics(Dynamics { iterations: 200, tolerance: 1e-8 });
+    system.set_dynamics(Dynamics { iterations: 200, tolerance: 1e-8, ..Dynamics::default() });
     let mut random = Random::new(24);
     state.position.iter_mut().for_each(|x| *x += random.vector() * 0.03);
     for dt in [5e-3, 4e-2] {
@@ -138,7 +142,7 @@ fn iterations_arrive_where_forces_balance_even_from_a_crumpled_state_at_large_st
 #[test]
 fn a_converged_step_never_gains_energy() {
     let (mut system, mut state) = system_of(&[&sheet(8, 0.4, 0.2)], 0.0);
-    system.set_dynamics(Dynamics { iterations: 100, tolerance: 1e-9 });
+    system.set_dynamics(Dynamics { iterations: 100, tolerance: 1e-9, ..Dynamics::default() });
     let mut random = Random::new(25);
     for (x, v) in state.position.iter_mut().zip(&mut state.velocity) {
         *x = *x * 1.05 + random.vector() * 5e-3;
@@ -160,7 +164,7 @@ fn a_converged_step_never_gains_energy() {
 #[test]
 fn iterated_contact_holds_a_fast_sheet_that_a_linearised_step_lets_sink() {
     let (mut system, mut state) = system_of(&[&sheet(6, 0.3, 0.2)], 0.0);
-    system.set_dynamics(Dynamics { iterations: 30, tolerance: 1e-7 });
+    system.set_dynamics(Dynamics { iterations: 30, tolerance: 1e-7, ..Dynamics::default() });
     state.velocity.fill(DVec3::new(1.0, 0.0, -2.0));
     let contacts: Vec<ContactPoint> = (0..system.node_count())
         .map(|node| ContactPoint {

@@ -203,12 +203,10 @@ impl System {
         Ok(active)
     }
 
-    /// Solves the system last assembled for `change`.
+    /// Solves the system last assembled for `change`, from what that holds on.
     pub(super) fn solve_change(&mut self) -> Result<(), StepError> {
         finite("force", &self.right_side)?;
-        self.solver.factorize(&self.matrix)?;
-        self.change.clone_from(&self.right_side);
-        self.solver.solve(&mut self.change);
+        self.solver.solve(&self.matrix, &self.right_side, &mut self.change)?;
         Ok(())
     }
 }

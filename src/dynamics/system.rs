@@ -9,7 +9,7 @@ use super::bending::{Hinge, dihedral_angle};
 use super::breakaway::Finding;
 use super::folds::FoldLaw;
 use super::matrix::{BlockMatrix, Pattern};
-use super::solve::LinearSolver;
+use super::solve::{LinearSolver, SolverCounts};
 use super::step::StepState;
 use super::stretch::Membrane;
 use crate::mesh::{CornerId, FaceId, Id, Mesh};
@@ -110,6 +110,7 @@ impl System {
             system.append(mesh, fabric);
         }
         system.right_side = vec![DVec3::ZERO; system.node_count()];
+        system.change = system.right_side.clone();
         system.set_pattern(&[]);
         system
     }
@@ -117,6 +118,7 @@ impl System {
     /// Takes steps as these settings ask, from now on.
     pub fn set_dynamics(&mut self, settings: Dynamics) {
         self.settings = settings;
+        self.solver.set_choice(settings.solver);
     }
 
     /// Goes on with another system's solver: where the pattern is the same, its analysis is kept.
@@ -150,9 +152,9 @@ impl System {
         &self.masses
     }
 
-    /// How often a pattern had to be analysed.
-    pub fn analysis_count(&self) -> usize {
-        self.solver.analysis_count()
+    /// What solving has taken so far.
+    pub fn solver_counts(&self) -> SolverCounts {
+        self.solver.counts()
     }
 
     /// Sets every element's stiffness to what the fabrics say of a deformation.

@@ -25,7 +25,9 @@ pub use load::{LoadOptions, LoadedShot, load, shot_schema};
 pub use motion::{Motion, MotionError, MotionKey};
 pub use pose::{Pose, PoseVelocity};
 pub use resolve::{load_camera, recorded_viewers};
-pub use settings::{Air, Contact, Dynamics, SizingSettings, StageSwitches, ViewRule, ViewSettings};
+pub use settings::{
+    Air, Contact, Dynamics, SizingSettings, SolverChoice, StageSwitches, ViewRule, ViewSettings,
+};
 pub use source::{EmbeddedFiles, FileRead, FileSource, FileSystem};
 pub use surface::Surface;
 

@@ -48,11 +48,23 @@ pub struct Dynamics {
     pub iterations: u32,
     /// Iterations end when none changes a velocity by more than this (m/s).
     pub tolerance: f64,
+    pub solver: SolverChoice,
+}
+
+/// How a step's linear equations are solved.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SolverChoice {
+    /// By conjugate gradients to 5 digits, or by factorisation where that is cheaper.
+    #[default]
+    Auto,
+    /// By factorisation: to rounding, and several times slower.
+    Direct,
 }
 
 impl Default for Dynamics {
     fn default() -> Self {
-        Self { iterations: 1, tolerance: 1e-4 }
+        Self { iterations: 1, tolerance: 1e-4, solver: SolverChoice::Auto }
     }
 }
 

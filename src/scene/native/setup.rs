@@ -4,7 +4,9 @@ use glam::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::scene::{Air, Contact, Dynamics, SizingSettings, StageSwitches, ViewRule, ViewSettings};
+use crate::scene::{
+    Air, Contact, Dynamics, SizingSettings, SolverChoice, StageSwitches, ViewRule, ViewSettings,
+};
 
 /// The air around the cloth.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -72,19 +74,22 @@ pub struct DynamicsFile {
     pub iterations: u32,
     /// Iterations end when none changes a velocity by more than this (m/s). Default 0.0001.
     pub tolerance: f64,
+    /// How linear equations are solved. Default auto: by conjugate gradients to 5 digits, or by
+    /// factorisation where that is cheaper; direct: always by factorisation, to rounding.
+    pub solver: SolverChoice,
 }
 
 impl Default for DynamicsFile {
     fn default() -> Self {
-        let Dynamics { iterations, tolerance } = Dynamics::default();
-        Self { iterations, tolerance }
+        let Dynamics { iterations, tolerance, solver } = Dynamics::default();
+        Self { iterations, tolerance, solver }
     }
 }
 
 impl DynamicsFile {
     pub(in crate::scene) fn dynamics(self) -> Dynamics {
-        let Self { iterations, tolerance } = self;
-        Dynamics { iterations, tolerance }
+        let Self { iterations, tolerance, solver } = self;
+        Dynamics { iterations, tolerance, solver }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Solving a step's matrix: a sparse Cholesky factorisation. Only here: faer.
+//! A sparse Cholesky factorisation. Only here: faer.
 //!
 //! Nodes, not scalars, are ordered (approximate minimum degree on the graph of blocks): half the time
 //! for the same fill. The blocks are scattered into the permuted scalar matrix through a
@@ -7,6 +7,9 @@
 use std::fmt;
 use std::sync::Arc;
 
+use super::SolveError;
+use super::permuted::{PermutedBlocks, Place, ScalarPattern};
+use crate::dynamics::matrix::{BlockMatrix, Pattern};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::reborrow::Reborrow;
@@ -19,24 +22,11 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 use glam::{DMat3, DVec3};
-use thiserror::Error;
-
-use super::matrix::{BlockMatrix, Pattern};
-use super::permuted::{PermutedBlocks, Place, ScalarPattern};
-
-/// Why a matrix has no factorisation.
-#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-pub enum SolveError {
-    #[error("the matrix is not positive definite at node {node}")]
-    NotPositiveDefinite { node: usize },
-    #[error("the factor of {nodes} nodes does not fit in memory")]
-    TooLarge { nodes: usize },
-}
 
 /// Factorises block matrices and solves with the last factor; keeps all buffers while the pattern
 /// stands.
 #[derive(Default)]
-pub struct LinearSolver {
+pub struct DirectSolver {
     analysis: Option<Analysis>,
     analysis_count: usize,
 }
@@ -63,7 +53,7 @@ struct NodeOrder {
     rank_of_node: Vec<u32>,
 }
 
-impl LinearSolver {
+impl DirectSolver {
     /// How often a new pattern had to be analysed.
     pub fn analysis_count(&self) -> usize {
         self.analysis_count
@@ -97,9 +87,9 @@ impl LinearSolver {
     }
 }
 
-impl fmt::Debug for LinearSolver {
+impl fmt::Debug for DirectSolver {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("LinearSolver").field("analysis_count", &self.analysis_count).finish()
+        f.debug_struct("DirectSolver").field("analysis_count", &self.analysis_count).finish()
     }
 }
 
@@ -265,7 +255,7 @@ mod tests {
         dense
     }
 
-    fn assert_solves_like_dense(solver: &mut LinearSolver, matrix: &BlockMatrix) {
+    fn assert_solves_like_dense(solver: &mut DirectSolver, matrix: &BlockMatrix) {
         let mut random = Random::new(8);
         let mut x: Vec<DVec3> =
             (0..matrix.pattern().node_count()).map(|_| random.vector()).collect();
@@ -282,14 +272,14 @@ mod tests {
         let mut random = Random::new(6);
         for nodes in [1, 2, 5, 40] {
             let matrix = sample(nodes, &mut random);
-            assert_solves_like_dense(&mut LinearSolver::default(), &matrix);
+            assert_solves_like_dense(&mut DirectSolver::default(), &matrix);
         }
     }
 
     #[test]
     fn a_pattern_is_analysed_once_while_it_stands_and_again_when_it_changes() {
         let mut random = Random::new(7);
-        let mut solver = LinearSolver::default();
+        let mut solver = DirectSolver::default();
         let mut matrix = sample(30, &mut random);
         assert_solves_like_dense(&mut solver, &matrix);
         fill(&mut matrix, &mut random);
@@ -308,7 +298,7 @@ mod tests {
         let mut matrix = sample(12, &mut random);
         let slot = matrix.pattern().diagonal_slot(5);
         matrix.add(slot, DMat3::IDENTITY * -100.0);
-        let mut solver = LinearSolver::default();
+        let mut solver = DirectSolver::default();
         let error = solver.factorize(&matrix).unwrap_err();
         assert!(matches!(error, SolveError::NotPositiveDefinite { .. }), "{error}");
         matrix.add(slot, DMat3::IDENTITY * 100.0);

@@ -2,7 +2,7 @@
 
 use glam::DMat3;
 
-use super::matrix::Pattern;
+use crate::dynamics::matrix::Pattern;
 
 /// The lower triangle's blocks after nodes were given ranks: by column, ascending in each.
 #[derive(Debug)]
