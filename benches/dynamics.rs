@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::{DVec2, DVec3};
-use shotsilk::dynamics::{LinearSolver, StepForces, StepState, System};
+use shotsilk::dynamics::{Accuracy, LinearSolver, StepForces, StepState, System};
 use shotsilk::mesh::{Mesh, RawMesh};
 use shotsilk::scene::{Air, Fabric, MeasuredFabric, SolverChoice};
 
@@ -75,7 +75,7 @@ fn steps(criterion: &mut Criterion) {
                     solver.expect_new_matrix();
                     let mut change = vec![DVec3::ZERO; right_side.len()];
                     solver
-                        .solve(matrix, black_box(right_side), &mut change)
+                        .solve(matrix, black_box(right_side), &mut change, Accuracy::Fine)
                         .expect("it is definite");
                 });
             });

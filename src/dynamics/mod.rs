@@ -39,7 +39,7 @@ pub mod wind;
 
 pub use contact::ContactPoint;
 pub use handles::HandleSpring;
-pub use solve::{LinearSolver, SolveError, SolverCounts};
+pub use solve::{Accuracy, LinearSolver, SolveError, SolverCounts};
 pub use step::{Convergence, StepError, StepForces, StepOutcome, StepState};
 pub use system::System;
 

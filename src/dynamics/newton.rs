@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::contact::{ContactPoint, ContactResponse, IteratedContact};
 use super::iterate::Iterate;
+use super::solve::Accuracy;
 use super::step::{Convergence, StepError, StepForces, StepOutcome, StepState};
 use super::system::System;
 
@@ -63,7 +64,8 @@ impl System {
     ) -> Result<(), StepError> {
         self.findings.clear();
         outcome.degenerate_hinges = self.assemble(start, forces, dt);
-        outcome.active_contacts = self.solve_with_contacts(start, forces, dt)?;
+        outcome.active_contacts = self.add_found_contacts(start, forces, dt);
+        self.solve_change(Accuracy::Fine)?;
         self.change.iter_mut().zip(&start.velocity).for_each(|(change, v)| *change += *v);
         Ok(())
     }
@@ -82,7 +84,7 @@ impl System {
         outcome.degenerate_hinges = outcome.degenerate_hinges.max(degenerate);
         outcome.active_contacts = active;
         self.change.fill(DVec3::ZERO);
-        self.solve_change()
+        self.solve_change(Accuracy::Fine)
     }
 
     /// Matrix and right side at an iterate, contacts included; returns how many hinges have no

@@ -11,7 +11,7 @@ use super::breakaway::CORRECTIONS_MAX;
 use super::contact::ContactPoint;
 use super::handles::HandleSpring;
 use super::iterate::Iterate;
-use super::solve::SolveError;
+use super::solve::{Accuracy, SolveError};
 use super::system::System;
 use crate::mesh::Mesh;
 use crate::scene::Air;
@@ -164,7 +164,7 @@ impl System {
         Ok(outcome)
     }
 
-    /// One linear solution, and again for contacts that are not what they were taken for.
+    /// Roughly solved until the contacts are what they were taken for, then finely.
     fn linearised_step(
         &mut self,
         start: &StepState,
@@ -174,39 +174,42 @@ impl System {
         self.findings.clear();
         let degenerate_hinges = self.assemble(start, forces, dt);
         let free_side = self.right_side.clone();
-        let mut active_contacts = self.solve_with_contacts(start, forces, dt)?;
+        let mut active_contacts = self.add_found_contacts(start, forces, dt);
         let mut solutions = 1;
-        while solutions <= CORRECTIONS_MAX && self.examine_contacts(start, forces, dt) {
-            self.remove_contacts();
-            self.right_side.copy_from_slice(&free_side);
-            active_contacts = self.solve_with_contacts(start, forces, dt)?;
-            solutions += 1;
+        if active_contacts > 0 {
+            self.solve_change(Accuracy::Rough)?;
+            while solutions <= CORRECTIONS_MAX && self.examine_contacts(start, forces, dt) {
+                self.remove_contacts();
+                self.right_side.copy_from_slice(&free_side);
+                active_contacts = self.add_found_contacts(start, forces, dt);
+                self.solve_change(Accuracy::Rough)?;
+                solutions += 1;
+            }
         }
+        self.solve_change(Accuracy::Fine)?;
         let convergence = Convergence::NotAsked;
         let outcome = StepOutcome { degenerate_hinges, active_contacts, solutions, convergence };
         let begun = Iterate { position: Vec::new(), velocity: start.velocity.clone() };
         Ok((begun.moved(&self.change, 1.0, start, dt), outcome))
     }
 
-    /// Leaves in `change` the velocity changes (m/s) that the contacts allow as they are found;
-    /// returns how many push.
-    pub(super) fn solve_with_contacts(
+    /// Adds the contacts as they have been found so far; returns how many push.
+    pub(super) fn add_found_contacts(
         &mut self,
         start: &StepState,
         forces: &StepForces<'_>,
         dt: f64,
-    ) -> Result<usize, StepError> {
+    ) -> usize {
         let responses = self.found_responses(start, forces, dt);
         let active = responses.len();
         self.add_contacts(responses.into_iter(), dt);
-        self.solve_change()?;
-        Ok(active)
+        active
     }
 
     /// Solves the system last assembled for `change`, from what that holds on.
-    pub(super) fn solve_change(&mut self) -> Result<(), StepError> {
+    pub(super) fn solve_change(&mut self, accuracy: Accuracy) -> Result<(), StepError> {
         finite("force", &self.right_side)?;
-        self.solver.solve(&self.matrix, &self.right_side, &mut self.change)?;
+        self.solver.solve(&self.matrix, &self.right_side, &mut self.change, accuracy)?;
         Ok(())
     }
 }

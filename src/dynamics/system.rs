@@ -121,6 +121,12 @@ impl System {
         self.solver.set_choice(settings.solver);
     }
 
+    /// Forgets what earlier steps have taught the solver: at the start of a frame, so that a frame
+    /// depends on the state before it alone.
+    pub fn begin_frame(&mut self) {
+        self.solver.forget();
+    }
+
     /// Goes on with another system's solver: where the pattern is the same, its analysis is kept.
     pub fn set_solver(&mut self, solver: LinearSolver) {
         self.solver = solver;

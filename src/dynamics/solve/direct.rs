@@ -59,16 +59,20 @@ impl DirectSolver {
         self.analysis_count
     }
 
+    /// Whether the last pattern analysed is this matrix's.
+    pub fn has_pattern_of(&self, matrix: &BlockMatrix) -> bool {
+        self.analysis.as_ref().is_some_and(|analysis| {
+            Arc::ptr_eq(&analysis.pattern, matrix.pattern())
+                || analysis.pattern == *matrix.pattern()
+        })
+    }
+
     /// Prepares [`solve`](Self::solve). Analyses the pattern only if it is not the last one's.
     ///
     /// # Errors
     /// If a pivot is not positive; nothing can then be solved.
     pub fn factorize(&mut self, matrix: &BlockMatrix) -> Result<(), SolveError> {
-        let stands = self.analysis.as_ref().is_some_and(|analysis| {
-            Arc::ptr_eq(&analysis.pattern, matrix.pattern())
-                || analysis.pattern == *matrix.pattern()
-        });
-        if !stands {
+        if !self.has_pattern_of(matrix) {
             self.analysis = None;
             self.analysis = Some(Analysis::new(matrix.pattern().clone())?);
             self.analysis_count += 1;

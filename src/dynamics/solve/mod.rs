@@ -71,9 +71,25 @@ pub struct SolverCounts {
     pub iterations: usize,
 }
 
-/// Iterations end when the residual, in the norm of the preconditioner, is this share of the right
-/// side's. On a garment in motion the velocities are then off by about 0.1 mm/s.
-const TOLERANCE: f64 = 1e-5;
+/// How good a solution must be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accuracy {
+    /// To see which contacts hold.
+    Rough,
+    /// To move the cloth. On a garment in motion velocities are then off by about 0.1 mm/s.
+    Fine,
+}
+
+impl Accuracy {
+    /// Iterations end when the residual, in the norm of the preconditioner, is this share of the
+    /// right side's.
+    fn tolerance(self) -> f64 {
+        match self {
+            Accuracy::Rough => 1e-3,
+            Accuracy::Fine => 1e-5,
+        }
+    }
+}
 
 /// Iterations with an incomplete factor which cost as much as a complete factorisation, for
 /// 5,000 nodes; the price of a factorisation over that of an iteration grows by the root.
@@ -115,6 +131,7 @@ impl LinearSolver {
         matrix: &BlockMatrix,
         b: &[DVec3],
         x: &mut [DVec3],
+        accuracy: Accuracy,
     ) -> Result<(), SolveError> {
         if self.choice == SolverChoice::Direct {
             return self.solve_directly(matrix, b, x);
@@ -123,24 +140,36 @@ impl LinearSolver {
             Preconditioner::None | Preconditioner::OutdatedIncomplete => {
                 self.incomplete.factorize(matrix);
                 self.preconditioner = Preconditioner::Incomplete;
-                self.solve_with_incomplete_factor(matrix, b, x)
+                self.solve_with_incomplete_factor(matrix, b, x, accuracy)
             }
-            Preconditioner::Incomplete => self.solve_with_incomplete_factor(matrix, b, x),
+            Preconditioner::Incomplete => self.solve_with_incomplete_factor(matrix, b, x, accuracy),
             Preconditioner::Needed => self.solve_directly(matrix, b, x),
-            Preconditioner::Factor => {
-                let budget = Budget { tolerance: TOLERANCE, iterations: ITERATIONS_WITH_FACTOR };
-                let direct = &mut self.direct;
-                let solve = |r: &[DVec3], z: &mut [DVec3]| {
-                    z.copy_from_slice(r);
-                    direct.solve(z);
-                };
-                let outcome = self.conjugate.solve(matrix, b, x, solve, budget);
-                self.counts.iterations += outcome.iterations();
-                match outcome {
-                    Outcome::Converged { .. } => Ok(()),
-                    _ => self.solve_directly(matrix, b, x),
-                }
-            }
+            Preconditioner::Factor => self.solve_with_factor(matrix, b, x, accuracy),
+        }
+    }
+
+    /// With the factor of an earlier matrix, if it lasts.
+    fn solve_with_factor(
+        &mut self,
+        matrix: &BlockMatrix,
+        b: &[DVec3],
+        x: &mut [DVec3],
+        accuracy: Accuracy,
+    ) -> Result<(), SolveError> {
+        if !self.direct.has_pattern_of(matrix) {
+            return self.solve_directly(matrix, b, x);
+        }
+        let budget = Budget { tolerance: accuracy.tolerance(), iterations: ITERATIONS_WITH_FACTOR };
+        let direct = &mut self.direct;
+        let apply = |r: &[DVec3], z: &mut [DVec3]| {
+            z.copy_from_slice(r);
+            direct.solve(z);
+        };
+        let outcome = self.conjugate.solve(matrix, b, x, apply, budget);
+        self.counts.iterations += outcome.iterations();
+        match outcome {
+            Outcome::Converged { .. } => Ok(()),
+            _ => self.solve_directly(matrix, b, x),
         }
     }
 
@@ -149,10 +178,11 @@ impl LinearSolver {
         matrix: &BlockMatrix,
         b: &[DVec3],
         x: &mut [DVec3],
+        accuracy: Accuracy,
     ) -> Result<(), SolveError> {
         let growth = (b.len() as f64 / 5e3).sqrt().max(0.5);
         let iterations = (ITERATIONS_AT_5000 * growth) as usize;
-        let budget = Budget { tolerance: TOLERANCE, iterations };
+        let budget = Budget { tolerance: accuracy.tolerance(), iterations };
         let incomplete = &mut self.incomplete;
         let apply = |r: &[DVec3], z: &mut [DVec3]| incomplete.apply(r, z);
         let outcome = self.conjugate.solve(matrix, b, x, apply, budget);
