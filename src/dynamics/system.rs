@@ -121,15 +121,10 @@ impl System {
         self.solver.set_choice(settings.solver);
     }
 
-    /// Forgets what earlier steps have taught the solver: at the start of a frame, so that a frame
-    /// depends on the state before it alone.
-    pub fn begin_frame(&mut self) {
-        self.solver.forget();
-    }
-
     /// Goes on with another system's solver: where the pattern is the same, its analysis is kept.
     pub fn set_solver(&mut self, solver: LinearSolver) {
         self.solver = solver;
+        self.solver.forget();
     }
 
     pub fn into_solver(self) -> LinearSolver {
@@ -139,6 +134,7 @@ impl System {
     /// Makes what follows independent of the steps so far. An analysis may stay: it is a function
     /// of its pattern.
     pub fn forget_the_past(&mut self) {
+        self.solver.forget();
         if self.has_extra_pairs {
             self.set_pattern(&[]);
         }

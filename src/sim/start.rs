@@ -63,7 +63,6 @@ impl Simulation {
             return Ok(true);
         }
         let limit = MOTION_IN_THICKNESSES * self.scene.contact.thickness;
-        self.cloth.system.begin_frame();
         let mut farthest = f64::INFINITY;
         for _ in 0..STEPS_PER_ROUND {
             let before = self.cloth.state.position.clone();
