@@ -82,10 +82,8 @@ impl ConjugateGradients {
                 return Outcome::Indefinite { iterations };
             }
             let length = squared / curvature;
-            for k in 0..count {
-                x[k] += self.direction[k] * length;
-                self.residual[k] -= self.product[k] * length;
-            }
+            add(x, &self.direction, length);
+            add(&mut self.residual, &self.product, -length);
             precondition(&self.residual, &mut self.preconditioned);
             let next = dot(&self.residual, &self.preconditioned);
             let turn = next / squared;
@@ -115,6 +113,11 @@ impl ConjugateGradients {
         self.direction.copy_from_slice(&self.preconditioned);
         dot(&self.residual, &self.preconditioned)
     }
+}
+
+/// a += b s.
+fn add(a: &mut [DVec3], b: &[DVec3], s: f64) {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a += *b * s);
 }
 
 fn dot(a: &[DVec3], b: &[DVec3]) -> f64 {
