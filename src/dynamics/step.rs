@@ -46,6 +46,10 @@ pub struct StepOutcome {
     pub active_contacts: usize,
     /// Linear systems solved.
     pub solutions: usize,
+    /// Iterations of conjugate gradients.
+    pub solver_iterations: usize,
+    /// Complete factorisations.
+    pub factorisations: usize,
     pub convergence: Convergence,
 }
 
@@ -61,6 +65,13 @@ pub enum Convergence {
     IterationsUsedUp,
     /// No share of the last direction lowered the energy any more.
     Stalled,
+}
+
+impl Convergence {
+    /// Whether the step is what it was asked to be.
+    pub fn is_satisfied(self) -> bool {
+        matches!(self, Convergence::NotAsked | Convergence::Reached)
+    }
 }
 
 /// Why a step was not taken. A shorter step may be.
@@ -153,10 +164,14 @@ impl System {
         assert_eq!(state.position.len(), self.node_count(), "positions are those of the system");
         assert_eq!(state.velocity.len(), self.node_count(), "velocities are those of the system");
         state.check_finite()?;
-        let (end, outcome) = match self.settings.iterations {
+        let before = self.solver.counts();
+        let (end, mut outcome) = match self.settings.iterations {
             0 | 1 => self.linearised_step(state, forces, dt)?,
             _ => self.iterated_step(state, forces, dt)?,
         };
+        let after = self.solver.counts();
+        outcome.solver_iterations = after.iterations - before.iterations;
+        outcome.factorisations = after.factorisations - before.factorisations;
         // Checked before anything is written.
         finite("velocity after the step", &end.velocity)?;
         *state = StepState { position: end.position, velocity: end.velocity };
@@ -187,8 +202,8 @@ impl System {
             }
         }
         self.solve_change(Accuracy::Fine)?;
-        let convergence = Convergence::NotAsked;
-        let outcome = StepOutcome { degenerate_hinges, active_contacts, solutions, convergence };
+        let outcome =
+            StepOutcome { degenerate_hinges, active_contacts, solutions, ..StepOutcome::default() };
         let begun = Iterate { position: Vec::new(), velocity: start.velocity.clone() };
         Ok((begun.moved(&self.change, 1.0, start, dt), outcome))
     }

@@ -33,7 +33,7 @@ pub(super) fn frame_from_bytes(version: u32, bytes: &[u8]) -> Result<Frame, Stat
     let mut reader = ByteReader::new(bytes);
     let number = reader.get("frame number")?;
     let time = reader.get("time")?;
-    let report = get_report(&mut reader)?;
+    let report = get_report(version, &mut reader)?;
     let garment_count = reader.count("garment count")?;
     let garments = (0..garment_count)
         .map(|index| {
@@ -101,7 +101,7 @@ fn put_report(writer: &mut ByteWriter, report: &FrameReport) {
     }
 }
 
-fn get_report(reader: &mut ByteReader) -> Result<FrameReport, StateError> {
+fn get_report(version: u32, reader: &mut ByteReader) -> Result<FrameReport, StateError> {
     let [obstacles, proximity, dynamics, collision, sizing, view, remesh, untangle, other] =
         reader.get("stage seconds")?;
     let stages = StageSeconds {
@@ -115,10 +115,7 @@ fn get_report(reader: &mut ByteReader) -> Result<FrameReport, StateError> {
         untangle,
         other,
     };
-    let [contacts, impacts, degenerate_hinges, splits, collapses, flips, vetoes] =
-        reader.get("stage counts")?;
-    let counts =
-        StageCounts { contacts, impacts, degenerate_hinges, splits, collapses, flips, vetoes };
+    let counts = get_counts(version, reader)?;
     let [cpu_seconds, view_factor_min, view_factor_mean, largest_stretch] =
         reader.get("frame measures")?;
     let steps_taken = reader.get("step count")?;
@@ -137,6 +134,27 @@ fn get_report(reader: &mut ByteReader) -> Result<FrameReport, StateError> {
         largest_stretch,
         trapped_nodes,
         warnings,
+    })
+}
+
+/// Version 1 does not count solutions.
+fn get_counts(version: u32, reader: &mut ByteReader) -> Result<StageCounts, StateError> {
+    let [contacts, impacts, degenerate_hinges, splits, collapses, flips, vetoes] =
+        reader.get("stage counts")?;
+    let [solutions, solver_iterations, factorisations, unconverged_steps] =
+        if version < 2 { [0; 4] } else { reader.get("solver counts")? };
+    Ok(StageCounts {
+        contacts,
+        impacts,
+        degenerate_hinges,
+        splits,
+        collapses,
+        flips,
+        vetoes,
+        solutions,
+        solver_iterations,
+        factorisations,
+        unconverged_steps,
     })
 }
 

@@ -8,7 +8,7 @@ use super::RunError;
 use crate::sim::{Frame, FrameReport};
 
 /// The columns in order. More may follow in later versions; these stay first.
-pub const STATS_COLUMNS: [&str; 29] = [
+pub const STATS_COLUMNS: [&str; 33] = [
     "frame",
     "time_s",
     "faces",
@@ -38,6 +38,10 @@ pub const STATS_COLUMNS: [&str; 29] = [
     "collapses",
     "flips",
     "vetoes",
+    "solutions",
+    "solver_iterations",
+    "factorisations",
+    "unconverged_steps",
 ];
 
 /// Appends rows; each is in the file when `append` returns.

@@ -167,9 +167,10 @@ fn statistics_have_the_agreed_columns_and_the_frame_numbers_of_the_shot() {
         "frame,time_s,faces,vertices,nodes,wall_s,cpu_s,obstacles_s,proximity_s,dynamics_s,\
          collision_s,sizing_s,view_s,remesh_s,untangle_s,other_s,view_factor_min,\
          view_factor_mean,intersections,steps_taken,largest_stretch,\
-         trapped_nodes,contacts,impacts,degenerate_hinges,splits,collapses,flips,vetoes\n\
-         1001,0,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,,8,0.125,2,5,0,0,2,0,0,0\n\
-         1002,0.04,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,3,8,0.125,2,5,0,0,2,0,0,0\n"
+         trapped_nodes,contacts,impacts,degenerate_hinges,splits,collapses,flips,vetoes,\
+         solutions,solver_iterations,factorisations,unconverged_steps\n\
+         1001,0,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,,8,0.125,2,5,0,0,2,0,0,0,0,0,0,0\n\
+         1002,0.04,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,3,8,0.125,2,5,0,0,2,0,0,0,0,0,0,0\n"
     );
 }
 

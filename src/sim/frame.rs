@@ -94,13 +94,33 @@ pub struct StageCounts {
     pub flips: u64,
     /// Collapses and flips left out for what they would do in the world.
     pub vetoes: u64,
+    /// Linear systems solved: one a step, and more where contacts or iterations ask for them.
+    pub solutions: u64,
+    /// Iterations of conjugate gradients.
+    pub solver_iterations: u64,
+    /// Complete factorisations.
+    pub factorisations: u64,
+    /// Steps that did not converge in the iterations allowed; linearised steps do not try to.
+    pub unconverged_steps: u64,
 }
 
 impl StageCounts {
     /// Names as in `stats.csv`, and values in that order.
-    pub fn entries(&self) -> [(&'static str, u64); 7] {
+    pub fn entries(&self) -> [(&'static str, u64); 11] {
         // Exhaustive, so that a new count cannot be forgotten here.
-        let Self { contacts, impacts, degenerate_hinges, splits, collapses, flips, vetoes } = *self;
+        let Self {
+            contacts,
+            impacts,
+            degenerate_hinges,
+            splits,
+            collapses,
+            flips,
+            vetoes,
+            solutions,
+            solver_iterations,
+            factorisations,
+            unconverged_steps,
+        } = *self;
         [
             ("contacts", contacts),
             ("impacts", impacts),
@@ -109,6 +129,10 @@ impl StageCounts {
             ("collapses", collapses),
             ("flips", flips),
             ("vetoes", vetoes),
+            ("solutions", solutions),
+            ("solver_iterations", solver_iterations),
+            ("factorisations", factorisations),
+            ("unconverged_steps", unconverged_steps),
         ]
     }
 }

@@ -110,6 +110,10 @@ impl Simulation {
             counts.contacts = outcome.active_contacts as u64;
             counts.degenerate_hinges =
                 counts.degenerate_hinges.max(outcome.degenerate_hinges as u64);
+            counts.solutions += outcome.solutions as u64;
+            counts.solver_iterations += outcome.solver_iterations as u64;
+            counts.factorisations += outcome.factorisations as u64;
+            counts.unconverged_steps += u64::from(!outcome.convergence.is_satisfied());
         }
         clock.time(Stage::Collision, || self.resolve(&before, &obstacles, report));
         self.keep_if_finite(before, end)

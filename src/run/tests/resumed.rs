@@ -286,8 +286,11 @@ fn a_run_half_removed_for_another_is_none() {
 fn a_state_of_version_1_is_read_without_anchors() {
     let whole = Frame { handle_anchors: Vec::new(), ..frame(1) };
     let mut content = frame_bytes(&whole);
-    // No handles: the count at the end is all that version 2 added.
+    // Version 2 added the count of handles at the end, of which there are none here, and four counts
+    // after frame number, time, nine stages and seven counts.
     assert_eq!(content.split_off(content.len() - 4), [0; 4]);
+    let counts = 4 + 8 + 9 * 8 + 7 * 8;
+    assert!(content.drain(counts..counts + 4 * 8).all(|byte| byte == 0));
     let dir = run(2);
     let file = seal(Kind { version: 1, ..FRAME }, &content).unwrap();
     fs::write(dir.path().join("frames/000001.sfr"), file).unwrap();
