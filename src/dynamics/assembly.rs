@@ -206,6 +206,7 @@ impl System {
         while let Some((slot, block)) = self.touched.pop() {
             self.matrix.set(slot, block);
         }
+        self.solver.expect_new_matrix();
     }
 }
 

@@ -41,19 +41,29 @@ pub struct LinearSolver {
     incomplete: IncompleteFactor,
     conjugate: ConjugateGradients,
     preconditioner: Preconditioner,
+    failures: Failures,
     counts: SolverCounts,
 }
+
+/// What did not converge since the solver last forgot.
+#[derive(Clone, Copy, Debug, Default)]
+struct Failures {
+    incomplete: u32,
+    outdated_factor: u32,
+}
+
+/// A preconditioner that has failed so often is not tried again: one bad matrix says nothing of the
+/// next, two say it is the cloth.
+const FAILURES_MAX: u32 = 2;
 
 /// What stands ready to precondition with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Preconditioner {
-    /// Nothing, and nothing is known against iterating.
+    /// Nothing, and not enough is known against iterating.
     #[default]
     None,
-    /// An incomplete factor of the matrix, or of one that differs in a few contacts only.
+    /// An incomplete factor of the matrix.
     Incomplete,
-    /// The incomplete factor of another matrix.
-    OutdatedIncomplete,
     /// Iterations were too many; no factor yet.
     Needed,
     /// A factor of this or an earlier matrix.
@@ -113,12 +123,14 @@ impl LinearSolver {
     /// the pattern, which depends on the pattern alone.
     pub fn forget(&mut self) {
         self.preconditioner = Preconditioner::None;
+        self.failures = Failures::default();
     }
 
-    /// Says that the next matrix is another one, not the last with a few contacts changed.
+    /// Says that the next matrix is another one. Contacts alone make it so: they are far stiffer than
+    /// cloth, and an incomplete factor with the wrong ones is worse than none.
     pub fn expect_new_matrix(&mut self) {
-        if self.preconditioner == Preconditioner::Incomplete {
-            self.preconditioner = Preconditioner::OutdatedIncomplete;
+        if self.failures.incomplete < FAILURES_MAX {
+            self.preconditioner = Preconditioner::None;
         }
     }
 
@@ -137,7 +149,7 @@ impl LinearSolver {
             return self.solve_directly(matrix, b, x);
         }
         match self.preconditioner {
-            Preconditioner::None | Preconditioner::OutdatedIncomplete => {
+            Preconditioner::None => {
                 self.incomplete.factorize(matrix);
                 self.preconditioner = Preconditioner::Incomplete;
                 self.solve_with_incomplete_factor(matrix, b, x, accuracy)
@@ -156,7 +168,8 @@ impl LinearSolver {
         x: &mut [DVec3],
         accuracy: Accuracy,
     ) -> Result<(), SolveError> {
-        if !self.direct.has_pattern_of(matrix) {
+        let is_given_up = self.failures.outdated_factor >= FAILURES_MAX;
+        if is_given_up || !self.direct.has_pattern_of(matrix) {
             return self.solve_directly(matrix, b, x);
         }
         let budget = Budget { tolerance: accuracy.tolerance(), iterations: ITERATIONS_WITH_FACTOR };
@@ -169,7 +182,10 @@ impl LinearSolver {
         self.counts.iterations += outcome.iterations();
         match outcome {
             Outcome::Converged { .. } => Ok(()),
-            _ => self.solve_directly(matrix, b, x),
+            _ => {
+                self.failures.outdated_factor += 1;
+                self.solve_directly(matrix, b, x)
+            }
         }
     }
 
@@ -190,6 +206,7 @@ impl LinearSolver {
         match outcome {
             Outcome::Converged { .. } => Ok(()),
             _ => {
+                self.failures.incomplete += 1;
                 self.preconditioner = Preconditioner::Needed;
                 self.solve_directly(matrix, b, x)
             }
