@@ -70,7 +70,7 @@ impl System {
         Ok(())
     }
 
-    /// Newton's direction at an iterate.
+    /// Newton's direction at an iterate, to a few digits: what it misses is left to the next.
     fn direction(
         &mut self,
         iterate: &Iterate,
@@ -84,7 +84,7 @@ impl System {
         outcome.degenerate_hinges = outcome.degenerate_hinges.max(degenerate);
         outcome.active_contacts = active;
         self.change.fill(DVec3::ZERO);
-        self.solve_change(Accuracy::Fine)
+        self.solve_change(Accuracy::Rough)
     }
 
     /// Matrix and right side at an iterate, contacts included; returns how many hinges have no
