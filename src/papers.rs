@@ -37,6 +37,9 @@ pub enum BW98 {}
 /// Bridson, Marino, Fedkiw: *Simulation of Clothing with Folds and Wrinkles*, SCA 2003.
 pub enum BMF03 {}
 
+/// Cooper: *The Stiffness of Woven Textiles*, Journal of the Textile Institute 1960.
+pub enum C60 {}
+
 /// Grinspun, Gingold, Reisman, Zorin: *Computing Discrete Shape Operators on General Meshes*,
 /// Computer Graphics Forum (Eurographics) 2006.
 pub enum GGRZ06 {}

@@ -1,8 +1,10 @@
 //! What a suite of measurements found, as charts and tables; plain data in, text out.
 
+mod bending;
 mod reference;
 mod study;
 mod visible_error;
 
+pub use bending::{BendingCandidate, bending_svg};
 pub use reference::{EdgeLengths, uniform_edge_length};
 pub use study::{FrameFigures, Reference, Study, Subject};

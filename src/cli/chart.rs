@@ -35,6 +35,8 @@ pub struct ChartArgs {
 enum Suite {
     /// Experiments whose outcome is known exactly: validation.json
     Validation,
+    /// What models of bending cost, and how far off they are: bending.json, bending.svg
+    Bending,
 }
 
 /// # Errors
@@ -43,6 +45,7 @@ pub fn run(args: &ChartArgs, _log: LogArgs) -> Result<()> {
     super::shot::set_threads(args.threads)?;
     match args.suite {
         Suite::Validation => validation(args),
+        Suite::Bending => super::bending_chart::run(&args.out),
     }
 }
 

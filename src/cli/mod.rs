@@ -1,6 +1,7 @@
 //! The command line, one subcommand a file.
 
 mod args;
+mod bending_chart;
 mod chart;
 mod compare;
 mod failure;

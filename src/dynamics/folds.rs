@@ -38,6 +38,9 @@ struct FaceStiffness {
     stiffness: DMat3,
 }
 
+/// A linearised step is stable down to a tangent of half the true one.
+const SAFE_SHARE: f64 = 0.5;
+
 impl FoldLaw {
     /// Of a mesh's interior edges, numbered as they come. `None` where each hinge stands for itself.
     pub fn new(mesh: &Mesh, plate: PlateCompliance, model: BendingModel) -> Option<Self> {
@@ -53,12 +56,13 @@ impl FoldLaw {
             }
             BendingModel::Moments => (moments(mesh, plate, &numbers, count)?, mid_edge),
         };
-        Some(Self { kind, tangent: diagonal(&majorant, count) })
+        let share = if model == BendingModel::Moments { SAFE_SHARE } else { 1.0 };
+        Some(Self { kind, tangent: diagonal(&majorant, count, share) })
     }
 
-    /// What the step's matrix has for K, per hinge (N m): half of the sums over the rows' magnitudes
-    /// in K, or in a K that is nowhere softer. Those sums are a diagonal which is nowhere softer
-    /// than K, half of which is as soft as is safe.
+    /// What the step's matrix has for K, per hinge (N m): a diagonal that is nowhere softer, made of
+    /// the sums over the rows' magnitudes in K; or, for moments, the safe share of these sums in the
+    /// stiffness of mid-edge normals, which is nowhere softer than theirs.
     pub fn tangent(&self) -> &[f64] {
         &self.tangent
     }
@@ -144,12 +148,12 @@ fn product(faces: &[FaceStiffness], folds: &[f64]) -> Vec<f64> {
     moments
 }
 
-fn diagonal(faces: &[FaceStiffness], count: usize) -> Vec<f64> {
+fn diagonal(faces: &[FaceStiffness], count: usize, share: f64) -> Vec<f64> {
     let mut diagonal = vec![0.0; count];
     for face in faces {
         for (i, row) in face.hinges.iter().enumerate() {
             let Some(row) = row else { continue };
-            diagonal[*row as usize] += 0.5 * face.stiffness.row(i).abs().element_sum();
+            diagonal[*row as usize] += share * face.stiffness.row(i).abs().element_sum();
         }
     }
     diagonal

@@ -18,8 +18,8 @@ mod surface;
 
 pub use error::{LoadError, Place, Problem};
 pub use fabric::{
-    BendingModel, ElasticFabric, Fabric, IsotropicSheet, MeasuredFabric, PlateCompliance,
-    StretchStiffness,
+    BendingModel, ElasticFabric, Fabric, IsotropicSheet, MeasuredFabric, PRESETS, PlateCompliance,
+    Preset, StretchStiffness,
 };
 pub use load::{LoadOptions, LoadedShot, load, shot_schema};
 pub use motion::{Motion, MotionError, MotionKey};

@@ -4,6 +4,7 @@
 //! file of its own, with the formula it is held against. What they are made of: [`sheet`]s of known
 //! layout and [`specimen`]s that are clamped, loaded and brought to rest.
 
+pub mod bending;
 mod energy;
 mod experiment;
 mod fabric;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{ElasticFabric, Fabric, IsotropicSheet};
+use super::{BendingModel, ElasticFabric, Fabric, IsotropicSheet, Preset};
 use crate::scene::{EmbeddedFiles, LoadError, LoadOptions, LoadedShot, load};
 
 const SHEET: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
@@ -66,6 +66,16 @@ fn warp_and_weft_and_all_factors_are_taken() {
 }
 
 #[test]
+fn a_preset_is_a_fabric_by_name_which_factors_change() {
+    let cotton = elastic(r#"{"preset": "cotton", "thicken": 2, "bending_model": "quadratic"}"#);
+    let single = Preset::named("cotton").unwrap().fabric();
+    assert_eq!(cotton.density, 2.0 * single.density);
+    assert_eq!(cotton.bending_model, BendingModel::Quadratic);
+    let error = load_fabric(r#"{"preset": "coton"}"#).unwrap_err().to_string();
+    assert!(error.contains("no preset \"coton\": did you mean \"cotton\"?"), "{error}");
+}
+
+#[test]
 fn the_record_of_an_elastic_fabric_means_the_same() {
     let fabric = r#"{"elastic": {"density": 0.2, "membrane_stiffness": [400, 100],
         "bending_rigidity": 4e-6}, "thicken": 2, "damping": 0.01}"#;
@@ -77,7 +87,7 @@ fn the_record_of_an_elastic_fabric_means_the_same() {
 fn bad_elastic_fabrics_are_answered_with_the_place() {
     let sheet = r#""density": 0.2, "membrane_stiffness": 100, "bending_rigidity": 1e-6"#;
     let cases = [
-        (r#"{}"#.to_owned(), "fabrics.f needs a file, an elastic sheet, or its tables"),
+        (r#"{}"#.to_owned(), "fabrics.f needs a file, a preset, an elastic sheet"),
         (r#"{"elastic": {}}"#.to_owned(), "f.elastic needs membrane_stiffness, or young_modulus"),
         (
             r#"{"elastic": {"membrane_stiffness": 1}}"#.to_owned(),
@@ -93,6 +103,8 @@ fn bad_elastic_fabrics_are_answered_with_the_place() {
         ),
         (format!(r#"{{"elastic": {{{sheet}}}, "file": "a"}}"#), "f has both file and elastic"),
         (format!(r#"{{"elastic": {{{sheet}}}, "density": 1}}"#), "has both elastic and density"),
+        (r#"{"preset": "silk", "elastic": {}}"#.to_owned(), "f has both preset and elastic"),
+        (r#"{"bending_model": "moments", "file": "a"}"#.to_owned(), "f.bending_model needs"),
         (
             format!(r#"{{"elastic": {{{sheet}, "poisson_ratio": 1}}}}"#),
             "poisson_ratio is 1, but must be greater than -1 and less than 1",

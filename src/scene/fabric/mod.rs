@@ -4,12 +4,14 @@ mod elastic;
 #[cfg(test)]
 mod load_tests;
 mod measured;
+mod preset;
 
 pub use elastic::{BendingModel, ElasticFabric, IsotropicSheet, PlateCompliance};
 pub(in crate::scene) use elastic::{
     homogeneous_bending_rigidity, isotropic_shear_stiffness, isotropic_twist_rigidity,
 };
 pub use measured::MeasuredFabric;
+pub use preset::{PRESETS, Preset};
 
 use crate::math::Mat3x2;
 

@@ -5,14 +5,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::BendingModel;
 
-/// A fabric: measured tables, here or in a material file, or an elastic sheet; and factors on
-/// them.
+/// A fabric: measured tables, here or in a material file, an elastic sheet or a preset of one; and
+/// factors on them.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FabricFile {
     /// A material file with `density`, `stretching` and `bending`; instead of the tables here.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
+    /// One of `cotton`, `silk`, `denim`, `wool`, `leather`, `rubber`, instead of tables.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub preset: Option<String>,
     /// A linear elastic sheet, instead of tables.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elastic: Option<ElasticFile>,
@@ -46,6 +49,7 @@ impl Default for FabricFile {
     fn default() -> Self {
         Self {
             file: None,
+            preset: None,
             elastic: None,
             bending_model: None,
             density: None,

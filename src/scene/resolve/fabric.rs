@@ -10,7 +10,7 @@ use crate::scene::fabric::{
     homogeneous_bending_rigidity, isotropic_shear_stiffness, isotropic_twist_rigidity,
 };
 use crate::scene::native::{ElasticFile, FabricFile, WarpWeft};
-use crate::scene::{BendingModel, ElasticFabric, Fabric, MeasuredFabric};
+use crate::scene::{BendingModel, ElasticFabric, Fabric, MeasuredFabric, PRESETS, Preset};
 
 /// The tables of a material file.
 #[derive(Deserialize)]
@@ -46,8 +46,7 @@ impl Resolver<'_> {
         let stretching = file.stretching_mult * file.thicken;
         let bending = file.bending_mult * file.thicken;
         let (damping, strain_limits) = (file.damping, file.strain_limits);
-        if let Some(elastic) = &file.elastic {
-            let sheet = self.elastic(&format!("{path}.elastic"), elastic)?;
+        if let Some(sheet) = self.sheet(&path, &file)? {
             let sheet = sheet.scaled(density, stretching, bending);
             let bending_model = file.bending_model.unwrap_or_default();
             let sheet = ElasticFabric { bending_model, damping, strain_limits, ..sheet };
@@ -69,6 +68,20 @@ impl Resolver<'_> {
         }))
     }
 
+    /// The elastic sheet or preset, if it is one.
+    fn sheet(&self, path: &str, file: &FabricFile) -> Result<Option<ElasticFabric>, LoadError> {
+        if let Some(elastic) = &file.elastic {
+            return self.elastic(&format!("{path}.elastic"), elastic).map(Some);
+        }
+        let Some(name) = &file.preset else { return Ok(None) };
+        let Some(preset) = Preset::named(name) else {
+            let nearest = nearest(name, PRESETS.iter().map(|preset| preset.name));
+            let problem = Problem::UnknownName { kind: "preset", name: name.clone(), nearest };
+            return Err(problem.at(self.document.place_of(&format!("{path}.preset"))));
+        };
+        Ok(Some(preset.fabric()))
+    }
+
     fn check_factors(&self, path: &str, file: &FabricFile) -> Result<(), LoadError> {
         for (name, value, limit) in [
             ("density_mult", file.density_mult, Limit::Positive),
@@ -86,10 +99,11 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    /// A material file, an elastic sheet or tables: never two of them.
+    /// A material file, a preset, an elastic sheet or tables: never two of them.
     fn check_one_source(&self, path: &str, file: &FabricFile) -> Result<(), LoadError> {
         let given = [
             ("file", file.file.is_some()),
+            ("preset", file.preset.is_some()),
             ("elastic", file.elastic.is_some()),
             (TABLE_NAMES[0], file.density.is_some()),
             (TABLE_NAMES[1], file.stretching.is_some()),
@@ -188,7 +202,7 @@ impl Resolver<'_> {
 
     fn inline_tables(&self, path: &str, file: &FabricFile) -> Result<Tables, LoadError> {
         if file.density.is_none() && file.stretching.is_none() && file.bending.is_none() {
-            return Err(self.missing(path, "a file, an elastic sheet, or its tables"));
+            return Err(self.missing(path, "a file, a preset, an elastic sheet, or its tables"));
         }
         let tables = Tables {
             density: file.density.ok_or_else(|| self.missing(path, "a file, or its density"))?,
