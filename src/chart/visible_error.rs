@@ -21,6 +21,8 @@ const FLOOR: RGBColor = RGBColor(140, 142, 150);
 /// Of subjects in their order: told apart by eyes of every kind, and in grey.
 const COLOURS: [RGBColor; 4] =
     [RGBColor(0, 92, 175), RGBColor(216, 108, 0), RGBColor(0, 128, 96), RGBColor(150, 60, 140)];
+/// A label beside a point reaches to so many times its cost.
+const LABEL_WIDTH: f64 = 6.0;
 /// Opacity of what is not judged.
 const PALE: f64 = 0.28;
 
@@ -76,6 +78,8 @@ impl Study {
         let has_floor = lines.iter().any(|(m, _)| *m == Metric::RmsPx);
         let floors = all.clone().filter(|_| has_floor).filter_map(FrameFigures::floor_rms_px);
         let values = decades(all.flat_map(of).chain(floors));
+        // A decade above the curves for the legend.
+        let values = values.start..values.end * 10.0;
         let mut chart = ChartBuilder::on(area)
             .margin(10)
             .caption(title, ("sans-serif", 14, &INK))
@@ -88,7 +92,7 @@ impl Study {
             .x_desc("frame")
             .y_desc(unit)
             .y_label_formatter(&|v| plain(*v))
-            .x_label_formatter(&|v| format!("{v:.0}"))
+            .x_label_formatter(&|v| whole(*v))
             .label_style(("sans-serif", 12, &INK))
             .draw()?;
         let floor: Vec<(f64, f64)> =
@@ -117,8 +121,7 @@ impl Study {
         }
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::LowerRight)
-            .background_style(WHITE.mix(0.85))
+            .position(SeriesLabelPosition::UpperLeft)
             .label_font(("sans-serif", 12, &INK))
             .draw()?;
         Ok(())
@@ -141,7 +144,7 @@ impl Study {
             .x_label_area_size(36)
             .y_label_area_size(60)
             .build_cartesian_2d(
-                decades(places.iter().map(|p| p.2)).log_scale(),
+                decades(places.iter().flat_map(|p| [p.2, LABEL_WIDTH * p.2])).log_scale(),
                 decades(places.iter().map(|p| p.3)).log_scale(),
             )?;
         chart
@@ -153,11 +156,13 @@ impl Study {
             .y_label_formatter(&|v| plain(*v))
             .label_style(("sans-serif", 12, &INK))
             .draw()?;
-        for (subject, colour, cpu, rms) in places {
+        // Above and below in turn: neighbours would write over one another.
+        let heights = [-16, 6].into_iter().cycle();
+        for ((subject, colour, cpu, rms), height) in places.into_iter().zip(heights) {
             let text = format!("{} ({:.0} faces)", subject.name, subject.face_count);
             chart.draw_series([EmptyElement::at((cpu, rms))
                 + Circle::new((0, 0), 5, colour.filled())
-                + Text::new(text, (9, -6), ("sans-serif", 13).into_font().color(&INK))])?;
+                + Text::new(text, (9, height), ("sans-serif", 13).into_font().color(&INK))])?;
         }
         Ok(())
     }
@@ -207,7 +212,15 @@ fn span(values: impl Iterator<Item = f64>) -> Range<f64> {
 /// Whole powers of ten around values above [`LEAST_PX`].
 fn decades(values: impl Iterator<Item = f64>) -> Range<f64> {
     let range = span(values.filter(|v| v.is_finite()).map(|v| v.max(LEAST_PX).log10()));
-    10f64.powf((range.start - 1e-9).floor())..10f64.powf((range.end + 1e-9).ceil())
+    let start = (range.start + 1e-9).floor();
+    let end = (range.end - 1e-9).ceil().max(start + 1.0);
+    // A little wider, so that the first and the last power have their labels.
+    0.99 * 10f64.powf(start)..1.01 * 10f64.powf(end)
+}
+
+/// Only frames have a label, not the places between them.
+fn whole(value: f64) -> String {
+    if value.fract() == 0.0 { format!("{value:.0}") } else { String::new() }
 }
 
 /// Without zeros that say nothing.
@@ -216,5 +229,62 @@ fn plain(value: f64) -> String {
     match text.contains('.') && !text.contains('e') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::study::Reference;
+    use super::*;
+    use crate::compare::Judged;
+    use crate::resample::{Spread, VisibleError};
+
+    fn figures(frame: i64, rms: f64, floor: f64) -> FrameFigures {
+        let error = |rms| VisibleError {
+            displacement: Spread { rms, p95: 2.0 * rms, largest: 3.0 * rms },
+            ..VisibleError::default()
+        };
+        let judged = Judged { error: error(rms), floor: Some(error(floor)) };
+        FrameFigures { frame, judged, flip: None }
+    }
+
+    fn study(frames: Vec<FrameFigures>) -> Study {
+        let reference = Reference {
+            edge_length_wanted: 0.01,
+            edge_length_mean: 0.01,
+            steps_per_frame: 16,
+            newton_iterations: 50,
+            perturbation: 1e-6,
+            face_count: 1000,
+            cpu_seconds: 1.0,
+        };
+        let view = Subject { name: "view".into(), cpu_seconds: 0.1, face_count: 99.0, frames };
+        Study { shot: "test".into(), reference, subjects: vec![view] }
+    }
+
+    #[test]
+    fn lines_break_where_chaos_begins_and_ends_but_leave_no_gap() {
+        let frames = vec![
+            figures(1, 1.0, 0.1),
+            figures(2, 2.0, 0.1),
+            figures(3, 1.0, 0.9),
+            figures(4, 1.0, 0.1),
+        ];
+        let study = study(frames);
+        let parts = stretches(&study.subjects[0], Metric::RmsPx);
+        let judged: Vec<bool> = parts.iter().map(|p| p.1).collect();
+        assert_eq!(judged, [true, false, true]);
+        assert!(parts.windows(2).all(|w| w[0].0.last() == w[1].0.first()));
+        assert_eq!(study.subjects[0].mean(Metric::RmsPx), Some(4.0 / 3.0));
+    }
+
+    #[test]
+    fn a_study_without_frames_or_without_error_is_drawn_too() {
+        for frames in [vec![], vec![figures(0, 0.0, 0.0)], vec![figures(7, 1.0, 0.5)]] {
+            let study = study(frames);
+            for svg in [study.error_svg().unwrap(), study.speed_svg().unwrap()] {
+                assert!(svg.starts_with("<svg") && !svg.contains("NaN"), "{svg}");
+            }
+        }
     }
 }

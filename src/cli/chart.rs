@@ -1,5 +1,7 @@
 //! `shotsilk chart`: suites of measurements, as tables and files.
 
+mod visible_error;
+
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -8,14 +10,19 @@ use clap::{Args, ValueEnum};
 use cpu_time::ThreadTime;
 use rayon::prelude::*;
 
+use super::args::ShotArgs;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::log::LogArgs;
 use super::output::{self, PendingFile, PendingFolder};
+use crate::render::{AdapterChoice, Headless};
 use crate::validation::{Experiment, Row, experiments};
 
 #[derive(Args, Debug)]
 pub struct ChartArgs {
+    /// The shot of a suite that measures one
+    #[command(flatten)]
+    shot: ShotArgs,
     /// What is measured
     #[arg(long, value_enum)]
     suite: Suite,
@@ -25,9 +32,12 @@ pub struct ChartArgs {
     /// Only rows whose name contains this
     #[arg(long, value_name = "PATTERN")]
     only: Option<String>,
-    /// Threads to compute with; without it all there are. The result does not depend on it
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    /// Compare shaded pictures of the runs as well
+    #[arg(long)]
+    shaded: bool,
+    /// The graphics adapter for shaded pictures: software, hardware, or part of a name
+    #[arg(long, default_value = "software")]
+    adapter: AdapterChoice,
 }
 
 /// `--suite`.
@@ -37,16 +47,29 @@ enum Suite {
     Validation,
     /// What models of bending cost, and how far off they are: bending.json, bending.svg
     Bending,
+    /// What coarsening costs a shot on screen, against a fine reference run of it: charts, tables,
+    /// and the runs
+    VisibleError,
 }
 
 /// # Errors
 /// If the output cannot be written, a row is off, or the user asks to stop.
-pub fn run(args: &ChartArgs, _log: LogArgs) -> Result<()> {
-    super::shot::set_threads(args.threads)?;
+pub fn run(args: &ChartArgs, log: LogArgs) -> Result<()> {
+    super::shot::set_threads(args.shot.threads)?;
     match args.suite {
         Suite::Validation => validation(args),
         Suite::Bending => super::bending_chart::run(&args.out),
+        Suite::VisibleError => visible_error(args, log),
     }
+}
+
+fn visible_error(args: &ChartArgs, log: LogArgs) -> Result<()> {
+    if args.only.is_some() {
+        return Err(Failure::Usage("--only chooses rows of the suite validation".into()).into());
+    }
+    let gpu = args.shaded.then(|| Headless::new(&args.adapter)).transpose();
+    let gpu = gpu.map_err(Failure::from)?;
+    visible_error::run(visible_error::Suite { shot: &args.shot, out: &args.out, gpu }, log)
 }
 
 fn validation(args: &ChartArgs) -> Result<()> {

@@ -25,7 +25,10 @@ const BACKGROUND: Srgb = Srgb([240, 241, 244]);
 const INK: Srgb = Srgb([44, 46, 52]);
 
 /// Brightness of a surface that is seen edge on; 1 where it faces the eye.
-const EDGE_ON: f64 = 0.35;
+const EDGE_ON: f64 = 0.4;
+
+/// The same where the colour has a meaning, which darkness would hide.
+const EDGE_ON_COLOURED: f64 = 0.85;
 
 /// The reference, the other run, and the reference coloured by how far the other's cloth is from
 /// it on the image.
@@ -36,44 +39,48 @@ pub fn error_page(
     view: &View,
 ) -> RgbaImage {
     let size = measured.raster.size();
-    let plain = |raster: &Raster, frame| shaded(raster, (frame, surfaces), view, |_| CLOTH);
+    let plain =
+        |raster: &Raster, frame| shaded(raster, (frame, surfaces), view, EDGE_ON, |_| CLOTH);
     let others = Raster::new(other, surfaces, view, size);
     let error_colour = |pixel: usize| {
         let shift = measured.displacement.shift[pixel].map_or(0.0, |s| s.length());
         ColourTable::EdgeSize.colour(ERROR_RANGE.coordinate(shift))
     };
-    let mut error = shaded(&measured.raster, (reference, surfaces), view, error_colour);
+    let mut error =
+        shaded(&measured.raster, (reference, surfaces), view, EDGE_ON_COLOURED, error_colour);
     draw_legend(&mut error);
     side_by_side(&[&plain(&measured.raster, reference), &plain(&others, other), &error])
 }
 
-/// Lit from the eye; the colour of cloth by the index of its pixel.
+/// Lit from the eye; `edge_on` is the least brightness of cloth, `cloth` its colour by the index of
+/// its pixel.
 fn shaded(
     raster: &Raster,
     (frame, surfaces): (&Frame, &[Arc<Surface>]),
     view: &View,
+    edge_on: f64,
     cloth: impl Fn(usize) -> Srgb,
 ) -> RgbaImage {
     let normals: Vec<IdVec<NodeId, DVec3>> =
         frame.garments.iter().map(|mesh| mesh.node_normals()).collect();
     let pixel = |index: usize| {
         let Some(seen) = raster.pixels()[index] else { return BACKGROUND };
-        let (colour, normal) = match seen.what {
+        let (colour, normal, least) = match seen.what {
             What::Cloth { garment, face } => {
                 let nodes = frame.garments[garment as usize].face_nodes(face);
                 let corners = nodes.map(|n| normals[garment as usize][n]);
-                (cloth(index), weighted(corners, seen))
+                (cloth(index), weighted(corners, seen), edge_on)
             }
             What::Obstacle { index, triangle } => {
                 let surface = &surfaces[index as usize];
                 let [a, b, c] =
                     surface.triangles[triangle as usize].map(|v| surface.positions[v as usize]);
                 let pose = frame.obstacle_poses[index as usize];
-                (OBSTACLE, pose.transform_vector((b - a).cross(c - a)))
+                (OBSTACLE, pose.transform_vector((b - a).cross(c - a)), EDGE_ON)
             }
         };
         let facing = normal.normalize_or_zero().dot(view.back).abs();
-        dimmed(colour, EDGE_ON + (1.0 - EDGE_ON) * facing)
+        dimmed(colour, least + (1.0 - least) * facing)
     };
     let [width, height] = raster.size();
     RgbaImage::from_fn(width, height, |x, y| Rgba(pixel((y * width + x) as usize).with_alpha(255)))

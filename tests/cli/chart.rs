@@ -1,6 +1,7 @@
 //! `chart`: a suite as a table and a file.
 
 use crate::program::run;
+use crate::small_shot::SmallShot;
 
 #[test]
 fn rows_that_hold_are_a_table_and_a_file() {
@@ -38,4 +39,43 @@ fn a_pattern_that_chooses_nothing_is_a_usage_error_that_leaves_nothing() {
     run(folder.path(), "chart --suite validation --only no-such-row --out a")
         .fails(2, &["no-such-row"]);
     assert_eq!(folder.path().read_dir().unwrap().count(), 0);
+}
+
+#[test]
+fn a_shot_is_charted_against_a_reference_run_and_finished_runs_are_used_again() {
+    let shot = SmallShot::new();
+    let line = "chart shot.json --suite visible-error --frames 2 --out study";
+    let outcome = shot.run(line).succeeds();
+    for subject in ["view", "adaptive", "uniform"] {
+        assert!(outcome.stdout.contains(subject), "{}", outcome.stdout);
+    }
+    let files =
+        ["csv", "json", "svg"].map(|kind| shot.text(&format!("study/visible-error.{kind}")));
+    assert_eq!(files[0].lines().count(), 1 + 3 * 3);
+    let study: serde_json::Value = serde_json::from_str(&files[1]).unwrap();
+    let reference = &study["reference"];
+    assert_eq!(reference["steps_per_frame"], 16);
+    let (wanted, mean) = (&reference["edge_length_wanted"], &reference["edge_length_mean"]);
+    let ratio = mean.as_f64().unwrap() / wanted.as_f64().unwrap();
+    assert!((ratio.ln()).abs() < 0.4, "{wanted} {mean}");
+    assert!(files[2].starts_with("<svg") && files[2].contains("visible error"));
+    let runs = ["adaptive", "perturbed", "reference", "uniform", "view"];
+    assert!(runs.iter().all(|run| shot.path(&format!("study/{run}/run.json")).is_file()));
+
+    let again = shot.run(line).succeeds();
+    assert_eq!(again.stderr.matches("using the run").count(), 5, "{}", again.stderr);
+    assert_eq!(shot.text("study/visible-error.csv"), files[0]);
+}
+
+#[test]
+fn a_suite_takes_only_the_arguments_that_mean_something_to_it() {
+    let shot = SmallShot::new();
+    let before = shot.names("");
+    for (arguments, part) in [
+        ("--suite visible-error --sizing view", "--sizing"),
+        ("--suite visible-error --only a", "--only"),
+    ] {
+        shot.run(&format!("chart shot.json --out a {arguments}")).fails(2, &[part]);
+        assert_eq!(shot.names(""), before);
+    }
 }

@@ -4,6 +4,8 @@ mod bless;
 mod pictures;
 mod runs;
 
+pub use runs::{page, shaded_difference};
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
