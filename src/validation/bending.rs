@@ -97,12 +97,17 @@ pub fn droop_of(fabric: &ElasticFabric) -> Result<[f64; 2], ExperimentError> {
     Ok([hanging(fabric.clone())?, hanging(turned)?])
 }
 
+/// Cells along a strip by root Gamma: a long strip bends over L / sqrt(Gamma) below its clamp and
+/// hangs from there.
+const CELLS_PER_ROOT: f64 = 2.5;
+
 fn hanging(fabric: ElasticFabric) -> Result<f64, ExperimentError> {
     let gamma = fabric.density * GRAVITY * LENGTH.powi(3) / fabric.bending_rigidity[0];
+    let cell = LENGTH / (CELLS_PER_ROOT * gamma.sqrt()).clamp(20.0, 200.0);
     let sheet = Sheet {
         origin: DVec2::ZERO,
-        size: DVec2::new(LENGTH, 0.4 * WIDTH),
-        cell: LENGTH / 40.0,
+        size: DVec2::new(LENGTH, 4.0 * cell),
+        cell,
         layout: Layout::Aligned,
         columns: Vec::new(),
     };
