@@ -73,3 +73,11 @@ pub enum CM69 {}
 /// Meijerink, van der Vorst: *An Iterative Solution Method for Linear Systems of Which the
 /// Coefficient Matrix is a Symmetric M-Matrix*, Math. Comp. 1977.
 pub enum MV77 {}
+
+/// Li, Kaufman, Jiang: *Codimensional Incremental Potential Contact*, ACM TOG 2021: additive
+/// continuous collision detection.
+pub enum LKJ21 {}
+
+/// Bridson, Fedkiw, Anderson: *Robust Treatment of Collisions, Contact and Friction for Cloth
+/// Animation*, ACM TOG 2002.
+pub enum BFA02 {}

@@ -62,9 +62,9 @@ fn the_shot_loads_without_warnings_and_has_what_it_is_meant_to_show() {
 fn the_skirt_hangs_free_of_the_figure_at_first_and_is_hardly_stretched() {
     let scene = loaded().scene;
     let skirt = &scene.garments[0].mesh;
-    let poses = Obstacles::poses(&scene, 0.0);
+
     let thickness = scene.contact.thickness;
-    for obstacle in Obstacles::new(&scene).moving(&poses, &poses, scene.step_time()) {
+    for obstacle in Obstacles::new(&scene).moving(&scene, [0.0; 2], scene.step_time()) {
         for position in skirt.position.iter() {
             let nearest = obstacle.nearest_at_end(*position, 1.0).expect("within a metre");
             assert!(nearest.signed_distance > thickness, "{position} is in contact");

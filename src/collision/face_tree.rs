@@ -3,13 +3,15 @@
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::Aabb;
-use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 
 use super::nearest::{bounds, nearest_triangle};
 use super::proximity::Cloth;
+use super::topology::Topology;
 
 /// See the module.
 pub struct FaceTree {
+    topology: Topology,
     tree: Bvh,
 }
 
@@ -28,7 +30,8 @@ pub struct Touch {
 impl FaceTree {
     pub fn new(positions: &[DVec3], faces: &[[u32; 3]]) -> Self {
         let boxes: Vec<Aabb> = faces.iter().map(|f| bounds(&corners(positions, f))).collect();
-        Self { tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
+        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        Self { topology: Topology::new(faces.to_vec()), tree }
     }
 
     /// Follows the nodes to where they are now.
@@ -41,6 +44,24 @@ impl FaceTree {
             );
         }
         self.tree.refit_without_opt();
+    }
+
+    /// Of the faces, with nodes as corners.
+    pub fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    /// Whether the box of a face is within a reach (m) of a point.
+    pub fn is_within(&self, point: DVec3, reach: f64) -> bool {
+        let is_near = |node: &BvhNode| {
+            point.distance_squared(point.clamp(node.mins(), node.maxs())) <= reach * reach
+        };
+        self.tree.leaves(is_near).next().is_some()
+    }
+
+    /// The faces whose boxes meet a box.
+    pub fn faces_in<'a>(&'a self, around: &'a Aabb) -> impl Iterator<Item = u32> + 'a {
+        self.tree.intersect_aabb(around)
     }
 
     pub fn bounds(&self) -> Aabb {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::obstacles::ObstacleMotion;
+use super::motion::ObstacleMotion;
 use crate::remesh::EditGuard;
 
 /// Refuses edits after which more faces cross an obstacle, where it is at the end of its step, than

@@ -1,22 +1,35 @@
 //! Where cloth meets obstacles: proximity for the implicit step, resolution after it, and a guard
 //! for the remesher. The only place that knows parry.
 //!
-//! Nodes of the cloth are tested against obstacles, and corners of obstacles against faces of the
-//! cloth. Edges are not tested against edges: a cloth edge can cut through a sharp ridge.
+//! Before the step, nodes near obstacles, corners of obstacles near faces and sharp edges of
+//! obstacles near edges become contacts. After it, whatever would have passed through a surface on
+//! its way, points through triangles or edges through edges, is stopped.
 
+mod continuous;
 mod face_tree;
+mod group;
 mod guard;
+mod impact;
+mod motion;
+mod near;
 mod nearest;
 mod obstacles;
 mod proximity;
 mod resolve;
+mod ridge;
+mod search;
 mod shape;
+mod stop;
+mod topology;
 
+pub use continuous::{Features, FirstTouch, Sweep};
 pub use face_tree::{FaceTree, Touch};
 pub use guard::ObstacleGuard;
-pub use obstacles::{ObstacleMotion, Obstacles};
+pub use motion::ObstacleMotion;
+pub use near::NearMemory;
+pub use obstacles::Obstacles;
 pub use proximity::{Cloth, contacts, nearest_planes};
-pub use resolve::{Depth, MovedCloth, resolve, trapped_nodes};
+pub use resolve::{Depth, MovedCloth, Resolution, resolve, trapped_nodes};
 pub use shape::{Nearest, Shape};
 
 #[cfg(test)]

@@ -4,7 +4,10 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::face_tree::FaceTree;
-use super::obstacles::ObstacleMotion;
+use super::group::Group;
+use super::motion::{At, ObstacleMotion};
+use super::near::{Known, NearMemory};
+use super::ridge::ridge_contacts;
 use crate::dynamics::ContactPoint;
 use crate::scene::Contact;
 use crate::sizing::Plane;
@@ -23,29 +26,32 @@ pub struct Cloth<'a> {
 }
 
 /// Contacts which hold already, or would be broken within the step if everything went on as it
-/// goes: nodes against obstacles, and corners of obstacles against faces.
+/// goes: nodes against obstacles, corners of obstacles against faces, sharp edges of obstacles
+/// against edges.
 ///
-/// In order of nodes, then of corners, however many threads look for them.
+/// In order of nodes, then of obstacles and their corners and edges, however many threads look for
+/// them.
 pub fn contacts(
     cloth: Cloth<'_>,
     tree: &FaceTree,
     obstacles: &[ObstacleMotion],
+    memory: &mut NearMemory,
     settings: &Contact,
 ) -> Vec<ContactPoint> {
     // Collected in the order of nodes and corners, whoever finds them first.
-    let of_node =
-        |node: usize| obstacles.iter().filter_map(move |o| node_contact(cloth, node, o, settings));
-    let mut found: Vec<ContactPoint> =
-        (0..cloth.position.len()).into_par_iter().flat_map_iter(of_node).collect();
-    let speed_max = cloth.velocity.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt();
-    for (index, obstacle) in obstacles.iter().enumerate() {
-        let of_corner = |corner: usize| {
-            let corner = obstacle_corner(obstacle, At::Start, corner);
-            let contact = corner_contact(cloth, speed_max, tree, obstacle, corner, settings)?;
-            (!is_inside_another(obstacles, index, corner.position, At::Start)).then_some(contact)
+    let stride = memory.stride();
+    let of_node = |(node, known): (usize, &mut [Known])| {
+        let of_obstacle = |(obstacle, known): (&ObstacleMotion, &mut Known)| {
+            node_contact(cloth, node, obstacle, known, settings)
         };
-        let corners = 0..obstacle.shape.positions().len();
-        found.par_extend(corners.into_par_iter().filter_map(of_corner));
+        obstacles.iter().zip(known).filter_map(of_obstacle).collect::<Vec<_>>()
+    };
+    let nodes = memory.by_node().par_chunks_mut(stride).enumerate();
+    let mut found: Vec<ContactPoint> = nodes.flat_map_iter(of_node).collect();
+    let speed_max = cloth.velocity.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt();
+    for own in 0..obstacles.len() {
+        corner_contacts(cloth, speed_max, tree, obstacles, own, settings, &mut found);
+        ridge_contacts(cloth, speed_max, tree, obstacles, own, settings, &mut found);
     }
     found
 }
@@ -57,6 +63,7 @@ fn node_contact(
     cloth: Cloth<'_>,
     node: usize,
     obstacle: &ObstacleMotion,
+    known: &mut Known,
     settings: &Contact,
 ) -> Option<ContactPoint> {
     let (x, v) = (cloth.position[node], cloth.velocity[node]);
@@ -68,16 +75,51 @@ fn node_contact(
         return None;
     }
     let approach = (v - obstacle.velocity_at(x)).length() * obstacle.duration;
-    let nearest = obstacle.nearest_at_start(x, reach_min.max(settings.thickness + approach))?;
+    let reach = reach_min.max(settings.thickness + approach + obstacle.own_way_max());
+    let nearest = known.nearest(obstacle, At::Start, x, reach)?;
     let contact = ContactPoint {
         nodes: ContactPoint::weighted(&[(node, 1.0)]),
         normal: nearest.normal,
         gap: nearest.signed_distance - settings.thickness,
-        surface_velocity: obstacle.velocity_at(nearest.point),
+        surface_velocity: obstacle.surface_velocity(nearest.triangle, nearest.barycentric),
         stiffness: settings.stiffness * cloth.area[node],
         friction: settings.friction_obstacle,
     };
     is_active(&contact, v, obstacle.duration).then_some(contact)
+}
+
+/// Corners of one obstacle against faces.
+fn corner_contacts(
+    cloth: Cloth<'_>,
+    cloth_speed_max: f64,
+    tree: &FaceTree,
+    obstacles: &[ObstacleMotion],
+    own: usize,
+    settings: &Contact,
+    found: &mut Vec<ContactPoint>,
+) {
+    let obstacle = &obstacles[own];
+    let approach = (obstacle.speed_max() + cloth_speed_max) * obstacle.duration;
+    let near = corners_near(tree, obstacle, settings.thickness + approach);
+    let of_corner = |corner: usize| {
+        let corner = obstacle_corner(obstacle, At::Start, corner);
+        let contact = corner_contact(cloth, cloth_speed_max, tree, obstacle, corner, settings)?;
+        (!is_inside_another(obstacles, own, corner.position, At::Start)).then_some(contact)
+    };
+    found.par_extend(near.into_par_iter().filter_map(of_corner));
+}
+
+/// The corners of an obstacle which may be within a reach (m) of the cloth, in order.
+fn corners_near(tree: &FaceTree, obstacle: &ObstacleMotion, reach: f64) -> Vec<usize> {
+    let shape = obstacle.shape_at_start();
+    let is_near = |group: &&Group| {
+        let centre = obstacle.start.transform_point(group.centre);
+        tree.is_within(centre, group.radius * obstacle.start.scale + reach)
+    };
+    let mut near: Vec<usize> =
+        shape.groups().iter().filter(is_near).flat_map(|g| g.corners.clone()).collect();
+    near.sort_unstable();
+    near
 }
 
 fn corner_contact(
@@ -88,14 +130,9 @@ fn corner_contact(
     corner: ObstacleCorner,
     settings: &Contact,
 ) -> Option<ContactPoint> {
-    let surface_velocity = obstacle.velocity_at(corner.position);
+    let surface_velocity = obstacle.corner_velocity(corner.index);
     let approach = (surface_velocity.length() + cloth_speed_max) * obstacle.duration;
     let reach = settings.thickness + approach;
-    let around = tree.bounds();
-    let aside = corner.position.clamp(around.mins, around.maxs);
-    if corner.position.distance_squared(aside) > reach * reach {
-        return None;
-    }
     let touch = tree.touch(cloth, corner.position, corner.normal, reach)?;
     // Further below, the cloth is on the other side of a thin part.
     if touch.signed_distance < -settings.thickness {
@@ -108,14 +145,17 @@ fn corner_contact(
         normal: touch.normal,
         gap: touch.signed_distance - settings.thickness,
         surface_velocity,
-        stiffness: settings.stiffness * obstacle.shape.vertex_areas()[corner.index] * scale * scale,
+        stiffness: settings.stiffness
+            * obstacle.shape_at_start().vertex_areas()[corner.index]
+            * scale
+            * scale,
         friction: settings.friction_obstacle,
     };
     is_active(&contact, velocity, obstacle.duration).then_some(contact)
 }
 
 /// Whether the contact holds, or would be broken if both sides went on as they go.
-fn is_active(contact: &ContactPoint, velocity: DVec3, duration: f64) -> bool {
+pub(super) fn is_active(contact: &ContactPoint, velocity: DVec3, duration: f64) -> bool {
     let closing = contact.normal.dot(velocity - contact.surface_velocity) * duration;
     contact.gap < 0.0 || contact.gap + closing < 0.0
 }
@@ -129,22 +169,15 @@ pub(super) struct ObstacleCorner {
     pub normal: DVec3,
 }
 
-/// Which end of a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum At {
-    Start,
-    End,
-}
-
 pub(super) fn obstacle_corner(obstacle: &ObstacleMotion, at: At, index: usize) -> ObstacleCorner {
-    let pose = match at {
-        At::Start => obstacle.start,
-        At::End => obstacle.end,
+    let (shape, pose) = match at {
+        At::Start => (obstacle.shape_at_start(), obstacle.start),
+        At::End => (obstacle.shape_at_end(), obstacle.end),
     };
     ObstacleCorner {
         index,
-        position: pose.transform_point(obstacle.shape.positions()[index]),
-        normal: pose.rotation * obstacle.shape.vertex_normals()[index],
+        position: pose.transform_point(shape.positions()[index]),
+        normal: pose.rotation * shape.vertex_normals()[index],
     }
 }
 

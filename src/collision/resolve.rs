@@ -1,21 +1,24 @@
-//! After the implicit step: nothing may end inside an obstacle.
+//! After the implicit step: nothing may pass through an obstacle, or end inside one.
 //!
-//! The penalty layer of the step yields; at speed it can be crossed. Here cloth that ended below
-//! the surface is led out, and stopped relative to the obstacle as an inelastic impact with
-//! friction would.
+//! The penalty layer of the step yields; at speed it can be crossed. Here nodes that ended below
+//! the surface are led out, and stopped relative to the obstacle as an inelastic impact with
+//! friction would; then [`stop`](super::stop) sees to it that nothing else has passed through on
+//! its way, edges and faces included.
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::BoundingVolume;
 use rayon::prelude::*;
 
 use super::face_tree::{FaceTree, Touch};
-use super::obstacles::ObstacleMotion;
-use super::proximity::{At, Cloth, is_inside_another, obstacle_corner};
+use super::motion::{At, ObstacleMotion};
+use super::near::{Known, NearMemory};
+use super::proximity::{Cloth, ObstacleCorner, is_inside_another, obstacle_corner};
 use super::shape::Nearest;
+use super::stop::stop_at_obstacles;
 use crate::scene::Contact;
 
 /// Cloth is led out to this share of the contact thickness; the penalty layer does the rest.
-const FLOOR_IN_THICKNESSES: f64 = 0.1;
+pub(super) const FLOOR_IN_THICKNESSES: f64 = 0.1;
 
 /// Parts that overlap hand a node to and fro; after so many rounds it is trapped.
 const ROUNDS_MAX: usize = 4;
@@ -45,32 +48,48 @@ pub enum Depth {
     Any,
 }
 
-/// Leads cloth out of the obstacles at the end of their step; returns how many nodes and faces had
-/// to be. The tree is left fitted to the result.
+/// What resolving did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Resolution {
+    /// Nodes, edges and faces that had to be led out or stopped.
+    pub impacts: usize,
+    /// Those that could not be: caught between obstacles.
+    pub unresolved: usize,
+}
+
+/// Leads cloth out of the obstacles at the end of their step, and stops it where it passed through
+/// one on its way. The tree is left fitted to the result.
 pub fn resolve(
     cloth: &mut MovedCloth<'_>,
     tree: &mut FaceTree,
     obstacles: &[ObstacleMotion],
+    memory: &mut NearMemory,
     settings: &Contact,
     depth: Depth,
-) -> usize {
-    let mut impacts = 0;
+) -> Resolution {
+    let mut resolution = Resolution::default();
     let mut suspects: Vec<usize> = (0..cloth.position.len()).collect();
     for _ in 0..ROUNDS_MAX {
-        let led = lead_nodes_out(cloth, &suspects, obstacles, settings, depth);
-        tree.refit(cloth.position, cloth.faces);
-        let lifted = lift_faces(cloth, tree, obstacles, settings);
-        impacts += led.len() + lifted.len() / 3;
+        let led = lead_nodes_out(cloth, &suspects, obstacles, memory, settings, depth);
+        resolution.impacts += led.len();
         suspects = led;
-        suspects.extend(&lifted);
+        if depth == Depth::Any {
+            tree.refit(cloth.position, cloth.faces);
+            let lifted = lift_faces(cloth, tree, obstacles, settings);
+            resolution.impacts += lifted.len() / 3;
+            suspects.extend(&lifted);
+        }
         if suspects.is_empty() {
             break;
         }
     }
-    if !suspects.is_empty() {
-        tree.refit(cloth.position, cloth.faces);
+    if depth == Depth::OfTheStep {
+        let stops = stop_at_obstacles(cloth, tree, obstacles, memory, settings);
+        resolution.impacts += stops.impacts;
+        resolution.unresolved = stops.unresolved;
     }
-    impacts
+    tree.refit(cloth.position, cloth.faces);
+    resolution
 }
 
 /// Nodes inside an obstacle at the end of its step, as between two that overlap.
@@ -83,25 +102,34 @@ fn lead_nodes_out(
     cloth: &mut MovedCloth<'_>,
     suspects: &[usize],
     obstacles: &[ObstacleMotion],
+    memory: &mut NearMemory,
     settings: &Contact,
     depth: Depth,
 ) -> Vec<usize> {
     let floor = FLOOR_IN_THICKNESSES * settings.thickness;
     let mut led = Vec::new();
-    for obstacle in obstacles {
+    for (number, obstacle) in obstacles.iter().enumerate() {
         let swept = obstacle.swept_bounds();
         for &node in suspects {
             let x = cloth.position[node];
             if x.distance_squared(x.clamp(swept.mins, swept.maxs)) > floor * floor {
                 continue;
             }
-            let Some(exit) = exit(cloth, node, obstacle, settings, depth) else { continue };
+            let own = obstacle.point_in_own_at_end(x);
+            // What lies as deep as this has not come there within the step.
+            if depth == Depth::OfTheStep
+                && memory.clearance(node, number, own) * obstacle.end.scale > floor
+            {
+                continue;
+            }
+            let known = memory.of(node, number);
+            let Some(exit) = exit(cloth, node, obstacle, known, settings, depth) else { continue };
             let lift = floor - exit.signed_distance;
             if lift <= SLACK_IN_THICKNESSES * settings.thickness {
                 continue;
             }
             cloth.position[node] += exit.normal * lift;
-            let surface_velocity = obstacle.velocity_at_end(exit.point);
+            let surface_velocity = obstacle.surface_velocity(exit.triangle, exit.barycentric);
             let relative = cloth.velocity[node] - surface_velocity;
             cloth.velocity[node] =
                 surface_velocity + after_impact(relative, exit.normal, settings.friction_obstacle);
@@ -118,6 +146,7 @@ fn exit(
     cloth: &MovedCloth<'_>,
     node: usize,
     obstacle: &ObstacleMotion,
+    known: &mut Known,
     settings: &Contact,
     depth: Depth,
 ) -> Option<Nearest> {
@@ -127,7 +156,7 @@ fn exit(
         Depth::OfTheStep => settings.thickness + x.distance(carried),
         Depth::Any => f64::INFINITY,
     };
-    let nearest = obstacle.nearest_at_end(x, reach)?;
+    let nearest = known.nearest(obstacle, At::End, x, reach)?;
     if nearest.signed_distance >= -settings.thickness || obstacle.contains_at_end(carried) {
         return Some(nearest);
     }
@@ -155,18 +184,19 @@ fn lift_faces(
         if !obstacle.swept_bounds().intersects(&around) {
             continue;
         }
-        for index in 0..obstacle.shape.positions().len() {
+        let groups = obstacle.shape_at_end().groups();
+        for &index in groups.iter().flat_map(|g| &g.corners) {
             let corner = obstacle_corner(obstacle, At::End, index);
             let p = corner.position;
             if p != p.clamp(around.mins, around.maxs) {
                 continue;
             }
-            let Some(touch) = sunk_face(cloth, tree, obstacle, index, settings) else { continue };
+            let Some(touch) = sunk_face(cloth, tree, corner, settings) else { continue };
             if is_inside_another(obstacles, own, p, At::End) {
                 continue;
             }
             let floor = FLOOR_IN_THICKNESSES * settings.thickness;
-            let surface_velocity = obstacle.velocity_at_end(p);
+            let surface_velocity = obstacle.corner_velocity(index);
             lift_face(cloth, &touch, floor - touch.signed_distance, surface_velocity);
             moved.extend(touch.nodes);
         }
@@ -174,25 +204,15 @@ fn lift_faces(
     moved
 }
 
-/// The face that has sunk below a corner of an obstacle: within the contact thickness, or deeper if
-/// it went in during this step.
+/// The face that has sunk below a corner of an obstacle, within the contact thickness.
 fn sunk_face(
     cloth: &MovedCloth<'_>,
     tree: &FaceTree,
-    obstacle: &ObstacleMotion,
-    index: usize,
+    corner: ObstacleCorner,
     settings: &Contact,
 ) -> Option<Touch> {
-    let end = obstacle_corner(obstacle, At::End, index);
-    let start = obstacle_corner(obstacle, At::Start, index);
-    let way = end.position.distance(start.position);
-    let touch = tree.touch(cloth.seen(), end.position, end.normal, settings.thickness + way)?;
-    if touch.signed_distance >= 0.0 {
-        return None;
-    }
-    let above_at_start =
-        (touch.weighted_sum(cloth.position_at_start) - start.position).dot(start.normal) > 0.0;
-    (touch.signed_distance >= -settings.thickness || above_at_start).then_some(touch)
+    tree.touch(cloth.seen(), corner.position, corner.normal, settings.thickness)
+        .filter(|touch| touch.signed_distance < 0.0)
 }
 
 /// Moves a point of a face along the normal by `lift` (m) and ends its approach, by the least
@@ -221,7 +241,7 @@ impl MovedCloth<'_> {
 /// The relative velocity after an inelastic impact with Coulomb friction
 /// ([`BMF03`](crate::papers::BMF03)): the approach ends, and sliding loses at most friction times
 /// the approach.
-fn after_impact(relative_velocity: DVec3, normal: DVec3, friction: f64) -> DVec3 {
+pub(super) fn after_impact(relative_velocity: DVec3, normal: DVec3, friction: f64) -> DVec3 {
     let approach = (-relative_velocity.dot(normal)).max(0.0);
     let along_normal = normal * relative_velocity.dot(normal);
     let sliding = relative_velocity - along_normal;

@@ -83,7 +83,8 @@ fn contacts_of(
     let area = vec![1.0; positions.len()];
     let tree = FaceTree::new(positions, &faces);
     let cloth = Cloth { position: positions, velocity: &velocities, area: &area, faces: &faces };
-    contacts(cloth, &tree, obstacles, &SETTINGS)
+    let mut memory = NearMemory::new(positions.len(), obstacles.len());
+    contacts(cloth, &tree, obstacles, &mut memory, &SETTINGS)
 }
 
 /// Resolves one face; returns the impacts.
@@ -98,9 +99,10 @@ fn resolved(
     let faces = [[0, 1, 2]];
     let mut tree = FaceTree::new(position_at_start, &faces);
     let area = [1.0; 3];
+    let mut memory = NearMemory::new(3, obstacles.len());
     let mut cloth =
         MovedCloth { position, velocity, position_at_start, area: &area, faces: &faces };
-    resolve(&mut cloth, &mut tree, obstacles, settings, depth)
+    resolve(&mut cloth, &mut tree, obstacles, &mut memory, settings, depth).impacts
 }
 
 #[test]
@@ -237,11 +239,11 @@ fn a_corner_is_foreseen_to_hit_a_face_that_has_no_node_near() {
 }
 
 #[test]
-fn velocity_is_the_same_by_where_a_point_is_at_the_start_or_at_the_end() {
+fn the_velocity_of_a_point_of_the_surface_is_that_of_what_moves_with_the_obstacle() {
     let turn =
         Pose { rotation: DQuat::from_rotation_z(0.4), translation: DVec3::X, ..Pose::IDENTITY };
     let obstacle = &moving(Pose::IDENTITY, turn)[0];
-    let start = DVec3::new(0.3, 0.7, -0.2);
-    let end = obstacle.carried(start);
-    assert!((obstacle.velocity_at(start) - obstacle.velocity_at_end(end)).length() < 1e-9);
+    let near = obstacle.nearest_at_start(DVec3::new(1.5, 0.3, -0.2), 1.0).unwrap();
+    let by_triangle = obstacle.surface_velocity(near.triangle, near.barycentric);
+    assert!((obstacle.velocity_at(near.point) - by_triangle).length() < 1e-9);
 }

@@ -1,14 +1,16 @@
 //! Small mathematics that every other module shares: 2x2 tensors and metrics, 3x2 derivatives,
-//! triangles in space.
+//! segments and triangles in space, cubics over the unit interval.
 
+mod cubic;
 mod mat3x2;
 mod metric;
 mod segment;
 mod tensor;
 mod triangle;
 
+pub use cubic::Cubic;
 pub use mat3x2::Mat3x2;
 pub use metric::{tensor_max, tensor_max_of, tensor_min};
-pub use segment::segment_distance_squared;
+pub use segment::{SegmentPair, closest_points_of_segments, segment_distance_squared};
 pub use tensor::{Eigen2, SymTensor2};
 pub use triangle::{ClosestPoint, closest_point_on_triangle, triangles_cross};

@@ -2,8 +2,25 @@
 
 use glam::DVec3;
 
+/// The nearest points of two segments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentPair {
+    /// Where along the first, 0..1.
+    pub first: f64,
+    /// Where along the second, 0..1.
+    pub second: f64,
+    /// From the point of the second to that of the first (m).
+    pub offset: DVec3,
+}
+
 /// Squared distance between two segments (m^2); either may be a point, and they may be parallel.
-pub fn segment_distance_squared([a0, a1]: [DVec3; 2], [b0, b1]: [DVec3; 2]) -> f64 {
+pub fn segment_distance_squared(a: [DVec3; 2], b: [DVec3; 2]) -> f64 {
+    closest_points_of_segments(a, b).offset.length_squared()
+}
+
+/// The nearest points of two segments; either may be a point. Of parallel segments, where many pairs
+/// are as near, one of them.
+pub fn closest_points_of_segments([a0, a1]: [DVec3; 2], [b0, b1]: [DVec3; 2]) -> SegmentPair {
     let (a, b, offset) = (a1 - a0, b1 - b0, a0 - b0);
     let (aa, bb, ab) = (a.length_squared(), b.length_squared(), a.dot(b));
     let (ao, bo) = (a.dot(offset), b.dot(offset));
@@ -15,7 +32,7 @@ pub fn segment_distance_squared([a0, a1]: [DVec3; 2], [b0, b1]: [DVec3; 2]) -> f
     // Clamping t moves the nearest point of the first segment, which clamps again.
     let s = clamped_ratio(ab * t - ao, aa);
     let t = clamped_ratio(ab * s + bo, bb);
-    (offset + a * s - b * t).length_squared()
+    SegmentPair { first: s, second: t, offset: offset + a * s - b * t }
 }
 
 /// n / d within 0..1; 0 where d is 0.

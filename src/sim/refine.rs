@@ -17,8 +17,7 @@ const OBSTACLE_RANGE_IN_THICKNESSES: f64 = 10.0;
 impl Simulation {
     /// Sizes and remeshes every garment at the current frame, then renews the moving cloth.
     pub(super) fn refine(&mut self, clock: &mut StageClock, report: &mut FrameReport) {
-        let poses = self.obstacle_poses();
-        let obstacles = self.obstacles.moving(&poses, &poses, self.scene.step_time());
+        let obstacles = self.obstacles_at_rest();
         let mut edits = 0;
         for index in 0..self.garments.len() {
             let planes = clock.time(Stage::Sizing, || self.planes(index, &obstacles));
@@ -56,8 +55,7 @@ impl Simulation {
         clock: &mut StageClock,
         report: &mut FrameReport,
     ) {
-        let poses = self.obstacle_poses();
-        let obstacles = self.obstacles.moving(&poses, &poses, self.scene.step_time());
+        let obstacles = self.obstacles_at_rest();
         for index in 0..self.garments.len() {
             let length = edge_length.unwrap_or(self.scene.garments[index].sizing.edge_length_min);
             let metric = SymTensor2::isotropic(1.0 / (length * length));

@@ -6,7 +6,7 @@ use thiserror::Error;
 use super::clock::{Stage, StageClock};
 use super::frame::FrameReport;
 use super::{MovingCloth, Simulation};
-use crate::collision::{Cloth, Depth, MovedCloth, ObstacleMotion, Obstacles, contacts, resolve};
+use crate::collision::{Cloth, Depth, MovedCloth, ObstacleMotion, Resolution, contacts, resolve};
 use crate::dynamics::{StepError, StepForces, StepState};
 use crate::scene::Contact;
 
@@ -92,8 +92,7 @@ impl Simulation {
         };
         let before = self.cloth.state.clone();
         let (obstacles, handles) = clock.time(Stage::Obstacles, || {
-            let poses = [time, end].map(|t| Obstacles::poses(&scene, t));
-            let moving = self.obstacles.moving(&poses[0], &poses[1], step_time);
+            let moving = self.obstacles.moving(&scene, [time, end], step_time);
             (moving, self.anchors.springs(&scene, &self.cloth.held, &before.position, end))
         });
         let contacts = match scene.stages.proximity && !obstacles.is_empty() {
@@ -132,15 +131,15 @@ impl Simulation {
         Ok(())
     }
 
-    fn contacts(&self, obstacles: &[ObstacleMotion]) -> Vec<crate::dynamics::ContactPoint> {
-        let cloth = &self.cloth;
+    fn contacts(&mut self, obstacles: &[ObstacleMotion]) -> Vec<crate::dynamics::ContactPoint> {
+        let cloth = &mut self.cloth;
         let seen = Cloth {
             position: &cloth.state.position,
             velocity: &cloth.state.velocity,
             area: &cloth.area,
             faces: &cloth.faces,
         };
-        contacts(seen, &cloth.tree, obstacles, &self.scene.contact)
+        contacts(seen, &cloth.tree, obstacles, &mut cloth.near, &self.scene.contact)
     }
 
     fn resolve(
@@ -153,13 +152,19 @@ impl Simulation {
             return;
         }
         if self.scene.stages.collision {
-            let impacts = self.cloth.lead_out(
+            let done = self.cloth.lead_out(
                 &before.position,
                 obstacles,
                 &self.scene.contact,
                 Depth::OfTheStep,
             );
-            report.counts.impacts += impacts as u64;
+            report.counts.impacts += done.impacts as u64;
+            if done.unresolved > 0 {
+                report.warnings.push(format!(
+                    "cloth passes through obstacles in {} places, caught between them",
+                    done.unresolved
+                ));
+            }
         } else {
             self.cloth.refit();
         }
@@ -174,7 +179,7 @@ impl MovingCloth {
         obstacles: &[ObstacleMotion],
         settings: &Contact,
         depth: Depth,
-    ) -> usize {
+    ) -> Resolution {
         let mut moved = MovedCloth {
             position: &mut self.state.position,
             velocity: &mut self.state.velocity,
@@ -182,6 +187,6 @@ impl MovingCloth {
             area: &self.area,
             faces: &self.faces,
         };
-        resolve(&mut moved, &mut self.tree, obstacles, settings, depth)
+        resolve(&mut moved, &mut self.tree, obstacles, &mut self.near, settings, depth)
     }
 }

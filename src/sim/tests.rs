@@ -55,7 +55,7 @@ fn stone() -> Surface {
     Surface { positions, triangles }
 }
 
-fn scene(mesh: Mesh) -> Scene {
+pub(super) fn scene(mesh: Mesh) -> Scene {
     Scene {
         name: "test".into(),
         fps: 25.0,
@@ -114,7 +114,7 @@ fn watched(scene: Scene, keys: &[(f64, DVec3, bool)]) -> Scene {
     Scene { viewers: vec![path], ..scene }
 }
 
-fn run(scene: Scene, sizing: SizingMode, frames: u32) -> Vec<Frame> {
+pub(super) fn run(scene: Scene, sizing: SizingMode, frames: u32) -> Vec<Frame> {
     let (mut simulation, first) =
         Simulation::start(Arc::new(scene), SimSettings { sizing }).unwrap();
     let mut all = vec![first];
@@ -223,7 +223,8 @@ fn cloth_out_of_frame_is_coarse_and_fine_again_in_the_frame_of_the_cut() {
     assert!(view[8].face_count() * 5 < adaptive[8].face_count(), "{}", view[8].face_count());
     assert!(view[8].report.view_factor_mean < 0.02);
     assert!(view[14].report.view_factor_mean > 0.99);
-    assert!(view[14].face_count() * 5 > view[16].face_count() * 3);
+    // The folds of what was flat out of frame form in the frames that follow.
+    assert!(view[14].face_count() * 2 > view[16].face_count());
     for pair in view[9..=14].windows(2) {
         assert!(pair[0].report.view_factor_mean < pair[1].report.view_factor_mean + 1e-12);
     }

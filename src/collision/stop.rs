@@ -1,0 +1,178 @@
+//! Stops cloth that would pass through an obstacle during the step.
+//!
+//! In rounds: all impacts are found, and resolved one by one in order of time as inelastic impacts
+//! with friction ([`BFA02`](crate::papers::BFA02)), which moves nodes and may cause other impacts. What
+//! is left after some rounds goes along with the obstacle: seen from there it rests, and what rests
+//! meets nothing. More and more nodes do, until nothing passes.
+
+use glam::DVec3;
+
+use super::face_tree::FaceTree;
+use super::impact::{Impact, Pair};
+use super::motion::ObstacleMotion;
+use super::near::NearMemory;
+use super::resolve::{FLOOR_IN_THICKNESSES, MovedCloth, after_impact};
+use super::search::{SweptCloth, impacts};
+use crate::scene::Contact;
+
+/// Cloth that comes as close as this, in contact thicknesses, touches.
+const TOUCH_IN_THICKNESSES: f64 = 1e-3;
+
+/// Rounds of impacts one by one. A sheet on a needle, a box or a sphere needs two or three.
+const IMPACT_ROUNDS: usize = 8;
+
+/// Rounds in which what is left goes along. Each takes in at least one more node; where it takes
+/// more rounds, the cloth is caught between obstacles.
+const CARRY_ROUNDS: usize = 24;
+
+/// What stopping did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Stops {
+    pub impacts: usize,
+    /// Features that still pass through an obstacle, between others that leave no way out.
+    pub unresolved: usize,
+}
+
+/// Stops the cloth at the obstacles' surfaces, a little outside.
+pub(super) fn stop_at_obstacles(
+    cloth: &mut MovedCloth<'_>,
+    tree: &FaceTree,
+    obstacles: &[ObstacleMotion],
+    memory: &NearMemory,
+    settings: &Contact,
+) -> Stops {
+    let mut stops = Stops::default();
+    let mut moved: Option<Vec<bool>> = None;
+    let mut carriers = vec![None; cloth.position.len()];
+    for round in 0..IMPACT_ROUNDS + CARRY_ROUNDS {
+        let found = found_impacts(cloth, tree, obstacles, memory, settings, moved.as_deref());
+        stops.unresolved = found.len();
+        if found.is_empty() {
+            break;
+        }
+        let mut moves = vec![false; cloth.position.len()];
+        stops.impacts += if round < IMPACT_ROUNDS {
+            resolve_in_order(cloth, obstacles, settings, &found, &mut moves)
+        } else {
+            carry_along(cloth, obstacles, &found, &mut carriers, &mut moves)
+        };
+        if !moves.contains(&true) {
+            break;
+        }
+        moved = Some(moves);
+    }
+    stops
+}
+
+/// In order of time, then of obstacles and faces.
+fn found_impacts(
+    cloth: &MovedCloth<'_>,
+    tree: &FaceTree,
+    obstacles: &[ObstacleMotion],
+    memory: &NearMemory,
+    settings: &Contact,
+    among: Option<&[bool]>,
+) -> Vec<Impact> {
+    let swept = SweptCloth { start: cloth.position_at_start, end: cloth.position, tree, among };
+    let touch = TOUCH_IN_THICKNESSES * settings.thickness;
+    let of = |obstacle| impacts(swept, obstacle, memory, touch);
+    let mut found: Vec<Impact> = obstacles.iter().enumerate().flat_map(of).collect();
+    found.sort_by(|a, b| a.time.total_cmp(&b.time));
+    found
+}
+
+/// Resolves impacts one by one, those that are still some when it is their turn; returns how many.
+fn resolve_in_order(
+    cloth: &mut MovedCloth<'_>,
+    obstacles: &[ObstacleMotion],
+    settings: &Contact,
+    found: &[Impact],
+    moves: &mut [bool],
+) -> usize {
+    let mut count = 0;
+    for impact in found {
+        let is_stale = nodes_of(impact).any(|n| moves[n]);
+        let now = if is_stale {
+            again(cloth, obstacles, settings, impact.pair, impact.obstacle)
+        } else {
+            Some(*impact)
+        };
+        if let Some(impact) = now {
+            resolve_one(cloth, settings, &impact);
+            nodes_of(&impact).for_each(|n| moves[n] = true);
+            count += 1;
+        }
+    }
+    count
+}
+
+/// The impact of a pair as the cloth is now.
+fn again(
+    cloth: &MovedCloth<'_>,
+    obstacles: &[ObstacleMotion],
+    settings: &Contact,
+    pair: Pair,
+    number: usize,
+) -> Option<Impact> {
+    let obstacle = &obstacles[number];
+    let seen = |n: usize| {
+        [
+            obstacle.point_in_own_at_start(cloth.position_at_start[n]),
+            obstacle.point_in_own_at_end(cloth.position[n]),
+        ]
+    };
+    let touch = TOUCH_IN_THICKNESSES * settings.thickness / obstacle.end.scale;
+    pair.impact((number, obstacle), &seen, touch)
+}
+
+/// The touching point ends a little above the surface and no longer approaches it, by the least
+/// change of its nodes: d_i = (w_i / m_i) / sum_k (w_k^2 / m_k) d.
+fn resolve_one(cloth: &mut MovedCloth<'_>, settings: &Contact, impact: &Impact) {
+    let weighted =
+        |values: &[DVec3]| impact.weights.iter().map(|&(n, w)| values[n] * w).sum::<DVec3>();
+    let height = impact.normal.dot(weighted(cloth.position) - impact.surface_point);
+    let lift = impact.normal * (FLOOR_IN_THICKNESSES * settings.thickness - height);
+    let relative = weighted(cloth.velocity) - impact.surface_velocity;
+    let change = after_impact(relative, impact.normal, settings.friction_obstacle) - relative;
+    // A face is of one fabric: area stands for mass.
+    let mobility = |n: usize, w: f64| w / cloth.area[n].max(f64::MIN_POSITIVE);
+    let whole: f64 = impact.weights.iter().map(|&(n, w)| w * mobility(n, w)).sum();
+    let shares = impact.weights.map(|(n, w)| (n, mobility(n, w) / whole));
+    for (node, share) in shares {
+        cloth.position[node] += lift * share;
+        cloth.velocity[node] += change * share;
+    }
+}
+
+/// The nodes of impacts go along with the obstacle from where they were at the start; returns how
+/// many did not yet.
+fn carry_along(
+    cloth: &mut MovedCloth<'_>,
+    obstacles: &[ObstacleMotion],
+    found: &[Impact],
+    carriers: &mut [Option<usize>],
+    moves: &mut [bool],
+) -> usize {
+    let mut count = 0;
+    for impact in found {
+        let obstacle = &obstacles[impact.obstacle];
+        // All nodes of the feature, whatever their weight.
+        for (node, _) in impact.weights {
+            if carriers[node] == Some(impact.obstacle) {
+                continue;
+            }
+            carriers[node] = Some(impact.obstacle);
+            let start = cloth.position_at_start[node];
+            let own = obstacle.point_in_own_at_start(start) + impact.own_way;
+            cloth.position[node] = obstacle.end.transform_point(own);
+            cloth.velocity[node] = (cloth.position[node] - start) / obstacle.duration;
+            moves[node] = true;
+            count += 1;
+        }
+    }
+    count
+}
+
+fn nodes_of(impact: &Impact) -> impl Iterator<Item = usize> + use<> {
+    impact.weights.into_iter().filter(|&(_, w)| w != 0.0).map(|(n, _)| n)
+}
