@@ -66,6 +66,10 @@ fn may_meet(cloth: SweptCloth<'_>, obstacle: &ObstacleMotion) -> bool {
     let ways = cloth.start.iter().zip(cloth.end).map(|(a, b)| a.distance_squared(*b));
     let way = ways.fold(0.0, f64::max).sqrt() + obstacle.pose_way_max(of_cloth);
     let reach = obstacle.turn() * way;
+    // Ways too long for their squares; the step will be found out.
+    if !reach.is_finite() {
+        return true;
+    }
     obstacle.swept_bounds().loosened(reach).intersects(&of_cloth)
 }
 
