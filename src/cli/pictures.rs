@@ -155,8 +155,8 @@ fn subject(footage: &Footage, camera: &CameraPath) -> Result<WitnessSubject> {
         last = Some(frame);
     }
     if let Some(frame) = last {
-        for (surface, &pose) in surfaces.iter().zip(&frame.obstacle_poses) {
-            subject = subject.with_obstacle(surface, pose);
+        for (index, (surface, &pose)) in surfaces.iter().zip(&frame.obstacle_poses).enumerate() {
+            subject = subject.with_obstacle(frame.points_of_obstacle(index, surface), pose);
         }
     }
     Ok(subject)

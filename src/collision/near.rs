@@ -38,6 +38,15 @@ impl NearMemory {
         self.known.fill(Known::default());
     }
 
+    /// Forgets how far off the obstacles are whose points move by themselves in a step: what was
+    /// known of their distances no longer holds.
+    pub fn forget_deforming(&mut self, obstacles: &[ObstacleMotion]) {
+        for (number, _) in obstacles.iter().enumerate().filter(|(_, o)| !o.is_rigid()) {
+            let of_obstacle = self.known.iter_mut().skip(number).step_by(self.obstacle_count);
+            of_obstacle.for_each(|known| known.clearance = 0.0);
+        }
+    }
+
     /// Per node, what is known of every obstacle. As many nodes as were asked for; none without
     /// obstacles.
     pub fn by_node(&mut self) -> &mut [Known] {

@@ -39,6 +39,7 @@ pub fn contacts(
     settings: &Contact,
 ) -> Vec<ContactPoint> {
     // Collected in the order of nodes and corners, whoever finds them first.
+    memory.forget_deforming(obstacles);
     let stride = memory.stride();
     let of_node = |(node, known): (usize, &mut [Known])| {
         let of_obstacle = |(obstacle, known): (&ObstacleMotion, &mut Known)| {

@@ -67,6 +67,7 @@ pub fn resolve(
     settings: &Contact,
     depth: Depth,
 ) -> Resolution {
+    memory.forget_deforming(obstacles);
     let mut resolution = Resolution::default();
     let mut suspects: Vec<usize> = (0..cloth.position.len()).collect();
     for _ in 0..ROUNDS_MAX {

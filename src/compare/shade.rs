@@ -73,8 +73,8 @@ fn shaded(
             }
             What::Obstacle { index, triangle } => {
                 let surface = &surfaces[index as usize];
-                let [a, b, c] =
-                    surface.triangles[triangle as usize].map(|v| surface.positions[v as usize]);
+                let points = frame.points_of_obstacle(index as usize, surface);
+                let [a, b, c] = surface.triangles[triangle as usize].map(|v| points[v as usize]);
                 let pose = frame.obstacle_poses[index as usize];
                 (OBSTACLE, pose.transform_vector((b - a).cross(c - a)), EDGE_ON)
             }

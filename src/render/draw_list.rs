@@ -92,8 +92,9 @@ impl DrawList {
         for (index, mesh) in frame.garments.iter().enumerate() {
             list.surfaces.push(cloth::batch(mesh, index, origin, options));
         }
-        for (surface, pose) in surfaces.iter().zip(&frame.obstacle_poses) {
-            list.surfaces.push(obstacle::batch(surface, *pose, origin));
+        for (index, (surface, pose)) in surfaces.iter().zip(&frame.obstacle_poses).enumerate() {
+            let points = frame.points_of_obstacle(index, surface);
+            list.surfaces.push(obstacle::batch(surface, points, *pose, origin));
         }
         if let Some(height) = options.ground_height {
             list.ground_lines = ground::lines(height, cloth_bounds, origin);

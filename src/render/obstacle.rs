@@ -19,10 +19,15 @@ const MATTE: Material = Material {
 /// Faces that meet at more than this angle do not share their shading: cosine of 50 degrees.
 const CREASE_COS: f64 = 0.642_787_6;
 
-/// The surface where its pose puts it. Triangles that name no point are left out.
-pub(super) fn batch(surface: &Surface, pose: Pose, origin: DVec3) -> SurfaceBatch {
-    let points: Vec<DVec3> =
-        surface.positions.iter().map(|&p| pose.transform_point(p) - origin).collect();
+/// The surface, its points in its own space, where its pose puts it. Triangles that name no point are
+/// left out.
+pub(super) fn batch(
+    surface: &Surface,
+    points: &[DVec3],
+    pose: Pose,
+    origin: DVec3,
+) -> SurfaceBatch {
+    let points: Vec<DVec3> = points.iter().map(|&p| pose.transform_point(p) - origin).collect();
     let known = |t: &&[u32; 3]| t.iter().all(|&i| (i as usize) < points.len());
     let triangles: Vec<[usize; 3]> =
         surface.triangles.iter().filter(known).map(|t| t.map(|i| i as usize)).collect();

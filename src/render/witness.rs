@@ -50,10 +50,9 @@ impl WitnessSubject {
     /// Adds the part of an obstacle that is near the cloth: a body shows where the cloth hangs,
     /// a floor of 20 m should not make it small.
     #[must_use]
-    pub fn with_obstacle(mut self, surface: &Surface, pose: Pose) -> Self {
+    pub fn with_obstacle(mut self, points: &[DVec3], pose: Pose) -> Self {
         let near = self.cloth.grown(0.5 * self.cloth.radius());
-        let obstacle =
-            Bounds::of_points(surface.positions.iter().map(|&p| pose.transform_point(p)));
+        let obstacle = Bounds::of_points(points.iter().map(|&p| pose.transform_point(p)));
         let part = obstacle.intersection(near);
         if !part.is_empty() {
             self.cloth = self.cloth.union(part);
@@ -198,7 +197,7 @@ mod tests {
             triangles: Vec::new(),
         };
         let subject = WitnessSubject { cloth: dress(), views: from_eye(DVec3::X * 3.0) };
-        let with_floor = subject.with_obstacle(&floor, Pose::IDENTITY);
+        let with_floor = subject.with_obstacle(&floor.positions, Pose::IDENTITY);
         assert!(with_floor.cloth.radius() < 2.0 * dress().radius());
     }
 }

@@ -145,7 +145,8 @@ fn triangles(frame: &Frame, surfaces: &[Arc<Surface>], view: &View) -> Vec<Trian
     }
     for (index, (surface, &pose)) in (0..).zip(surfaces.iter().zip(&frame.obstacle_poses)) {
         let in_camera = |&p: &DVec3| view.point_in_camera(pose.transform_point(p));
-        let points: Vec<DVec3> = surface.positions.iter().map(in_camera).collect();
+        let own = frame.points_of_obstacle(index as usize, surface);
+        let points: Vec<DVec3> = own.iter().map(in_camera).collect();
         triangles.extend((0..).zip(&surface.triangles).map(|(triangle, corners)| Triangle {
             corners: corners.map(|v| points[v as usize]),
             what: What::Obstacle { index, triangle },

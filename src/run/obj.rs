@@ -4,6 +4,8 @@
 
 use std::fmt::Write;
 
+use glam::DVec3;
+
 use crate::mesh::{Id, Mesh};
 use crate::scene::{Pose, Surface};
 
@@ -26,10 +28,14 @@ pub(super) fn cloth_obj(mesh: &Mesh) -> String {
     text
 }
 
-/// An obstacle where it is at a frame.
-pub(super) fn obstacle_obj(surface: &Surface, world_from_obstacle: Pose) -> String {
+/// An obstacle where it is at a frame, its points in its own space.
+pub(super) fn obstacle_obj(
+    surface: &Surface,
+    points: &[DVec3],
+    world_from_obstacle: Pose,
+) -> String {
     let mut text = String::new();
-    for &point in &surface.positions {
+    for &point in points {
         let p = world_from_obstacle.transform_point(point);
         line(&mut text, format_args!("v {} {} {}", p.x, p.y, p.z));
     }

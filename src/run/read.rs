@@ -68,11 +68,28 @@ impl RunReader {
     pub fn frame(&self, number: u32) -> Result<Frame, RunError> {
         let path = self.path_of(number)?;
         let frame = read_sealed(&path, FRAME, frame_from_bytes)?;
-        if frame.number == number {
-            Ok(frame)
-        } else {
-            Err(RunError::WrongFrame { path, found: frame.number, expected: number })
+        if frame.number != number {
+            return Err(RunError::WrongFrame { path, found: frame.number, expected: number });
         }
+        match self.check_points(&frame) {
+            Ok(()) => Ok(frame),
+            Err(source) => Err(RunError::State { path, source }),
+        }
+    }
+
+    /// Whether deforming obstacles have as many points as at rest.
+    fn check_points(&self, frame: &Frame) -> Result<(), StateError> {
+        for (&obstacle, points) in &frame.obstacle_points {
+            let known = self.obstacles.get(obstacle as usize);
+            if known.is_none_or(|surface| surface.positions.len() != points.len()) {
+                return Err(StateError::Value {
+                    what: "number of points of a deforming obstacle",
+                    found: points.len() as u64,
+                    expected: "as many as the obstacle has at rest",
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Whether a frame's file is as it was written, at a small part of the cost of reading it.

@@ -17,7 +17,8 @@ pub(super) struct Kind {
     pub version: u32,
 }
 
-/// A frame's state. Version 2 has the anchors of handles.
+/// A frame's state. Version 2 has the anchors of handles and the points of deforming
+/// obstacles.
 pub(super) const FRAME: Kind = Kind { magic: b"SILKFRAM", version: 2 };
 
 /// The obstacles at rest.

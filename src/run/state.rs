@@ -1,5 +1,6 @@
 //! A frame as bytes and back, bit for bit. `docs/run-folder.md` gives the layout.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -12,7 +13,8 @@ use crate::sim::{Frame, FrameReport, StageCounts, StageSeconds};
 
 /// A frame's content, without the envelope.
 pub(super) fn frame_bytes(frame: &Frame) -> Vec<u8> {
-    let Frame { number, time, garments, obstacle_poses, handle_anchors, report } = frame;
+    let Frame { number, time, garments, obstacle_poses, obstacle_points, handle_anchors, report } =
+        frame;
     let mut writer = ByteWriter::default();
     writer.put(*number);
     writer.put(*time);
@@ -24,11 +26,17 @@ pub(super) fn frame_bytes(frame: &Frame) -> Vec<u8> {
     writer.count(obstacle_poses.len());
     writer.items(obstacle_poses);
     put_anchors(&mut writer, handle_anchors);
+    writer.count(obstacle_points.len());
+    for (obstacle, points) in obstacle_points {
+        writer.put(*obstacle);
+        writer.count(points.len());
+        writer.items(points);
+    }
     writer.into_bytes()
 }
 
-/// The frame in a content of a known version. In version 1 there are no anchors: nothing that has
-/// handles can go on from it.
+/// The frame in a content of a known version. In version 1 there are no anchors, so that nothing that
+/// has handles can go on from it, and no obstacles whose points move by themselves.
 pub(super) fn frame_from_bytes(version: u32, bytes: &[u8]) -> Result<Frame, StateError> {
     let mut reader = ByteReader::new(bytes);
     let number = reader.get("frame number")?;
@@ -46,8 +54,9 @@ pub(super) fn frame_from_bytes(version: u32, bytes: &[u8]) -> Result<Frame, Stat
     let pose_count = reader.count("obstacle count")?;
     let obstacle_poses = reader.items("obstacle poses", pose_count)?;
     let handle_anchors = if version < 2 { Vec::new() } else { get_anchors(&mut reader)? };
+    let obstacle_points = if version < 2 { BTreeMap::new() } else { get_points(&mut reader)? };
     reader.end()?;
-    Ok(Frame { number, time, garments, obstacle_poses, handle_anchors, report })
+    Ok(Frame { number, time, garments, obstacle_poses, obstacle_points, handle_anchors, report })
 }
 
 fn put_anchors(writer: &mut ByteWriter, handles: &[Vec<Option<DVec3>>]) {
@@ -72,6 +81,16 @@ fn get_anchors(reader: &mut ByteReader) -> Result<Vec<Vec<Option<DVec3>>>, State
         Ok(taken.into_iter().zip(points).map(|(taken, x)| (taken != 0).then_some(x)).collect())
     };
     (0..handle_count).map(handle).collect()
+}
+
+fn get_points(reader: &mut ByteReader) -> Result<BTreeMap<u32, Arc<Vec<DVec3>>>, StateError> {
+    let count = reader.count("count of deforming obstacles")?;
+    let points = |_| {
+        let obstacle = reader.get("number of a deforming obstacle")?;
+        let count = reader.count("point count")?;
+        Ok((obstacle, Arc::new(reader.items("points", count)?)))
+    };
+    (0..count).map(points).collect()
 }
 
 fn put_report(writer: &mut ByteWriter, report: &FrameReport) {

@@ -69,6 +69,7 @@ fn frame(number: u32) -> Frame {
             rotation: DQuat::from_rotation_z(0.3),
             translation: DVec3::Z,
         }],
+        obstacle_points: [(0, Arc::new(vec![DVec3::X / 3.0; 4]))].into(),
         handle_anchors: vec![vec![None, Some(DVec3::new(-0.0, 1.0 / 3.0, 2.0))], Vec::new()],
         report: FrameReport {
             stages,

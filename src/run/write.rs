@@ -89,7 +89,8 @@ impl RunWriter {
             let placed = self.obstacles.iter().zip(&frame.obstacle_poses);
             for (index, (surface, &pose)) in placed.enumerate() {
                 let path = self.place.obstacle_obj(shown, index);
-                write_whole(&path, obstacle_obj(surface, pose).as_bytes())?;
+                let points = frame.points_of_obstacle(index, surface);
+                write_whole(&path, obstacle_obj(surface, points, pose).as_bytes())?;
             }
         }
         Ok(())

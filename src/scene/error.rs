@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
+use super::deformation::DeformationError;
 use super::motion::MotionError;
 use crate::mesh::MeshError;
 
@@ -109,6 +110,13 @@ pub enum Problem {
     Index { thing: &'static str, what: &'static str, index: i64, count: usize },
     #[error("motion {name:?}: {error}")]
     Motion { name: String, error: MotionError },
+    #[error("{thing}: {error}")]
+    Deformation { thing: String, error: DeformationError },
+    #[error(
+        "it has {} points and {} triangles, but {first:?} has {} and {}: all meshes of a deforming obstacle must have the same triangles",
+        found[0], found[1], expected[0], expected[1]
+    )]
+    OtherTriangles { first: String, found: [usize; 2], expected: [usize; 2] },
     #[error(
         "the camera path has {camera} frames a second, but the scene has {scene}: say with --fps which holds"
     )]

@@ -2,6 +2,7 @@
 //! as [`load()`] resolves it from a [`native`] shot file or an imported scene.
 
 mod arcsim;
+mod deformation;
 mod document;
 mod error;
 mod fabric;
@@ -9,6 +10,7 @@ mod load;
 mod mot;
 mod motion;
 pub mod native;
+mod numbered;
 mod obj;
 mod pose;
 mod resolve;
@@ -16,6 +18,7 @@ mod settings;
 mod source;
 mod surface;
 
+pub use deformation::{Deformation, DeformationError, PointKey};
 pub use error::{LoadError, Place, Problem};
 pub use fabric::{
     BendingModel, ElasticFabric, Fabric, IsotropicSheet, MeasuredFabric, PRESETS, PlateCompliance,
@@ -29,8 +32,9 @@ pub use settings::{
     Air, Contact, Dynamics, SizingSettings, SolverChoice, StageSwitches, ViewRule, ViewSettings,
 };
 pub use source::{EmbeddedFiles, FileRead, FileSource, FileSystem};
-pub use surface::Surface;
+pub use surface::{Surface, Welding};
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -83,12 +87,14 @@ pub struct Garment {
     pub two_sided: bool,
 }
 
-/// A solid that the cloth must not enter: a closed surface, moved rigidly.
+/// A solid that the cloth must not enter: a closed surface, moved rigidly, or deformed, or both.
 #[derive(Clone, Debug)]
 pub struct Obstacle {
     pub name: String,
-    /// In the obstacle's own space.
+    /// In the obstacle's own space; where its points move by themselves, as they are at first.
     pub surface: Arc<Surface>,
+    /// How the points of the surface move by themselves.
+    pub deformation: Option<Arc<Deformation>>,
     /// From the obstacle's own space to the space of its motion, or to the world if it has none.
     pub placement: Pose,
     /// Index into the scene's motions.
@@ -119,6 +125,16 @@ impl Scene {
     /// (s).
     pub fn step_time(&self) -> f64 {
         self.frame_time() / f64::from(self.steps_per_frame)
+    }
+
+    /// The points at a time (s) of the obstacles whose points move by themselves (m, own space), by
+    /// the obstacle's number.
+    pub fn moved_points(&self, time: f64) -> BTreeMap<u32, Arc<Vec<DVec3>>> {
+        let of = |(number, obstacle): (u32, &Obstacle)| {
+            let deformation = obstacle.deformation.as_ref()?;
+            Some((number, Arc::new(deformation.positions(time))))
+        };
+        (0..).zip(&self.obstacles).filter_map(of).collect()
     }
 
     /// From an obstacle's own space to the world at a time (s).

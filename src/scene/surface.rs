@@ -16,22 +16,11 @@ impl Surface {
     /// The same surface with points at the same place made one, as where patches meet.
     #[must_use]
     pub fn welded(&self) -> Self {
-        let mut first_at: HashMap<[u64; 3], u32> = HashMap::new();
-        let mut positions = Vec::new();
-        let new_number: Vec<u32> = self
-            .positions
-            .iter()
-            .map(|&p| {
-                // Adding zero makes -0 the same as 0.
-                let key = p.to_array().map(|x| (x + 0.0).to_bits());
-                *first_at.entry(key).or_insert_with(|| {
-                    positions.push(p);
-                    positions.len() as u32 - 1
-                })
-            })
-            .collect();
-        let renumbered = |t: &[u32; 3]| t.map(|v| new_number[v as usize]);
-        Self { positions, triangles: self.triangles.iter().map(renumbered).collect() }
+        let welding = Welding::new([self.positions.as_slice()]);
+        Self {
+            positions: welding.welded(&self.positions),
+            triangles: self.triangles.iter().map(|t| welding.renumbered(*t)).collect(),
+        }
     }
 
     /// Edges with a triangle on one side only, or two that run the same way: 0 for a closed
@@ -45,6 +34,51 @@ impl Surface {
             .filter(|(a, b)| a != b)
             .collect();
         directed.iter().filter(|&&(a, b)| !directed.contains(&(b, a))).count()
+    }
+}
+
+/// Which points are one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Welding {
+    new_number: Vec<u32>,
+    /// The first of the points that became one.
+    first: Vec<u32>,
+}
+
+impl Welding {
+    /// Points are one that are at the same place in each of the arrays, which are equally long;
+    /// nothing without arrays.
+    pub fn new<'a>(arrays: impl IntoIterator<Item = &'a [DVec3]>) -> Self {
+        let mut welding: Option<Self> = None;
+        for positions in arrays {
+            let before = welding.map(|w| w.new_number).unwrap_or(vec![0; positions.len()]);
+            welding = Some(Self::finer(&before, positions));
+        }
+        welding.unwrap_or(Self { new_number: Vec::new(), first: Vec::new() })
+    }
+
+    fn finer(before: &[u32], positions: &[DVec3]) -> Self {
+        let mut known: HashMap<(u32, [u64; 3]), u32> = HashMap::new();
+        let mut first = Vec::new();
+        let number = |(point, (&p, &group)): (usize, (&DVec3, &u32))| {
+            // Adding zero makes -0 the same as 0.
+            let key = (group, p.to_array().map(|x| (x + 0.0).to_bits()));
+            *known.entry(key).or_insert_with(|| {
+                first.push(point as u32);
+                first.len() as u32 - 1
+            })
+        };
+        let new_number = positions.iter().zip(before).enumerate().map(number).collect();
+        Self { new_number, first }
+    }
+
+    /// One of each group of points that are one.
+    pub fn welded(&self, positions: &[DVec3]) -> Vec<DVec3> {
+        self.first.iter().map(|&point| positions[point as usize]).collect()
+    }
+
+    pub fn renumbered(&self, triangle: [u32; 3]) -> [u32; 3] {
+        triangle.map(|v| self.new_number[v as usize])
     }
 }
 
@@ -80,5 +114,13 @@ mod tests {
         let mut inverted = tetrahedron();
         inverted.triangles[0].swap(0, 1);
         assert_eq!(inverted.open_edge_count(), 3);
+    }
+    #[test]
+    fn points_that_part_later_are_not_welded() {
+        let together = [DVec3::ZERO, DVec3::ZERO, DVec3::X, DVec3::ZERO];
+        let apart = [DVec3::Y, DVec3::Y, DVec3::X, DVec3::ZERO];
+        let welding = Welding::new([together.as_slice(), apart.as_slice()]);
+        assert_eq!(welding.renumbered([0, 1, 3]), [0, 0, 2]);
+        assert_eq!(welding.welded(&apart), [DVec3::Y, DVec3::X, DVec3::ZERO]);
     }
 }

@@ -1,12 +1,13 @@
 //! One finished frame: what the simulation publishes and everything downstream reads.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::SimError;
 use crate::mesh::Mesh;
-use crate::scene::{Pose, Scene};
+use crate::scene::{Pose, Scene, Surface};
 
 /// The state at the end of a frame: all that the next one depends on besides shot and settings.
 /// Never changes once published.
@@ -20,6 +21,8 @@ pub struct Frame {
     pub garments: Vec<Arc<Mesh>>,
     /// World from obstacle space, in the order of the scene's obstacles.
     pub obstacle_poses: Vec<Pose>,
+    /// By the obstacle's number, the points in its own space (m) where they move by themselves.
+    pub obstacle_points: BTreeMap<u32, Arc<Vec<DVec3>>>,
     /// Per handle of the scene and node of it, where the node was when the handle took hold
     /// (m, world); `None` while it has not.
     pub handle_anchors: Vec<Vec<Option<DVec3>>>,
@@ -27,6 +30,12 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// The points of an obstacle in its own space (m); `at_rest` is its surface at first.
+    pub fn points_of_obstacle<'a>(&'a self, number: usize, at_rest: &'a Surface) -> &'a [DVec3] {
+        let moved = u32::try_from(number).ok().and_then(|n| self.obstacle_points.get(&n));
+        moved.map_or(at_rest.positions.as_slice(), |points| points.as_slice())
+    }
+
     pub fn face_count(&self) -> usize {
         self.garments.iter().map(|g| g.face_count()).sum()
     }

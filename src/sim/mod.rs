@@ -164,7 +164,7 @@ impl Simulation {
     }
 
     /// The obstacles where they are at the current frame.
-    fn obstacles_at_rest(&self) -> Vec<ObstacleMotion> {
+    fn obstacles_at_rest(&mut self) -> Vec<ObstacleMotion> {
         let now = self.time();
         self.obstacles.moving(&self.scene, [now, now], self.scene.step_time())
     }
@@ -182,6 +182,7 @@ impl Simulation {
             time: self.time(),
             garments: self.garments.iter().cloned().map(Arc::new).collect(),
             obstacle_poses: self.obstacle_poses(),
+            obstacle_points: self.scene.moved_points(self.time()),
             handle_anchors: self.anchors.points().to_vec(),
             report,
         }

@@ -9,7 +9,9 @@ use super::tests::{run, scene};
 use super::*;
 use crate::collision::Shape;
 use crate::mesh::RawMesh;
-use crate::scene::{Handle, Motion, MotionKey, Obstacle, PoseVelocity, Surface};
+use crate::scene::{
+    Deformation, Handle, Motion, MotionKey, Obstacle, PointKey, PoseVelocity, Surface,
+};
 
 const STEP: f64 = 0.01;
 /// Contact thickness is 5 mm.
@@ -82,6 +84,7 @@ fn against(mesh: Mesh, surface: Surface, keys: Vec<MotionKey>) -> Scene {
     let obstacle = Obstacle {
         name: "body".into(),
         surface: Arc::new(surface),
+        deformation: None,
         placement: Pose::IDENTITY,
         motion: Some(0),
     };
@@ -117,10 +120,10 @@ fn pinned(mut scene: Scene) -> Scene {
 
 /// The frames, each without a face that crosses the obstacle.
 fn checked_run(scene: &Scene, frames: u32) -> Vec<Frame> {
-    let shape = Shape::new(&scene.obstacles[0].surface);
     let all = run(scene.clone(), SizingMode::Uniform { edge_length: None }, frames);
     for frame in &all {
         let own = frame.obstacle_poses[0].inverse();
+        let shape = Shape::new(&surface_at(scene, frame));
         let mesh = &frame.garments[0];
         for face in mesh.face_ids() {
             let corners = mesh.face_nodes(face).map(|n| own.transform_point(mesh.position[n]));
@@ -131,6 +134,13 @@ fn checked_run(scene: &Scene, frames: u32) -> Vec<Frame> {
         assert!(frame.report.warnings.is_empty(), "{:?}", frame.report.warnings);
     }
     all
+}
+
+/// The obstacle in its own space at a frame.
+fn surface_at(scene: &Scene, frame: &Frame) -> Surface {
+    let surface = &scene.obstacles[0].surface;
+    let positions = frame.points_of_obstacle(0, surface).to_vec();
+    Surface { positions, triangles: surface.triangles.clone() }
 }
 
 /// How many faces a ray along z meets.
@@ -150,7 +160,9 @@ fn faces_along(mesh: &Mesh, from: DVec3, direction: DVec3) -> usize {
 fn assert_nothing_passes(scene: &Scene) -> Vec<Frame> {
     let frames = checked_run(scene, 8);
     for frame in &frames {
-        let centre = frame.obstacle_poses[0].translation;
+        let points = surface_at(scene, frame).positions;
+        let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+        let centre = frame.obstacle_poses[0].transform_point(middle);
         let (above, below) = (
             faces_along(&frame.garments[0], centre, DVec3::Z),
             faces_along(&frame.garments[0], centre, DVec3::NEG_Z),
@@ -247,16 +259,40 @@ fn a_spinning_blade_does_not_cut_a_sheet() {
     checked_run(&against(mesh, blade, keys.collect()), 25);
 }
 
+/// A ball below the sheet which becomes a long egg high above it, all by its own points: they move
+/// by 20 thicknesses in a step and more.
+fn deforming() -> Scene {
+    let still = vec![key(0.0, DVec3::ZERO, 0.0, PoseVelocity::default())];
+    let mut scene = against(flat(), ball(0.1), still);
+    let at = |time: f64| {
+        let stretch = DVec3::new(1.0 + 15.0 * time, 1.0, 1.0 + 5.0 * time);
+        let shift = DVec3::new(0.013, 0.021, SPEED * time - 0.15);
+        let positions = ball(0.1).positions.iter().map(|&p| p * stretch + shift).collect();
+        PointKey { time, positions }
+    };
+    let deformation = Deformation::from_keys(vec![at(0.0), at(0.035), at(0.1)]).unwrap();
+    scene.obstacles[0].surface = Arc::new(Surface { positions: at(0.0).positions, ..ball(0.1) });
+    scene.obstacles[0].deformation = Some(Arc::new(deformation));
+    scene
+}
+
+#[test]
+fn a_body_that_deforms_fast_does_not_pass_through_a_sheet() {
+    assert_carried(&assert_nothing_passes(&deforming()));
+    assert_nothing_passes(&pinned(deforming()));
+}
+
 #[test]
 fn stopping_gives_the_same_bits_on_any_number_of_threads() {
-    let scene = pinned(upwards(flat(), ball(0.12)));
-    let on = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| run(scene.clone(), SizingMode::Uniform { edge_length: None }, 5))
-    };
-    let [one, two, seven] = [1, 2, 7].map(on);
-    for ((a, b), c) in one.iter().zip(&two).zip(&seven) {
-        assert_eq!(a.garments, b.garments);
-        assert_eq!(a.garments, c.garments);
+    for scene in [pinned(upwards(flat(), ball(0.12))), deforming()] {
+        let on = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| run(scene.clone(), SizingMode::Uniform { edge_length: None }, 5))
+        };
+        let [one, two, seven] = [1, 2, 7].map(on);
+        for ((a, b), c) in one.iter().zip(&two).zip(&seven) {
+            assert_eq!(a.garments, b.garments);
+            assert_eq!(a.garments, c.garments);
+        }
     }
 }

@@ -88,6 +88,7 @@ fn on_a_stone() -> Scene {
     let obstacle = Obstacle {
         name: "stone".into(),
         surface: Arc::new(stone()),
+        deformation: None,
         placement: Pose { translation: DVec3::Z * 0.28, ..Pose::IDENTITY },
         motion: None,
     };

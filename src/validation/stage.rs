@@ -46,7 +46,13 @@ pub fn garment(mesh: Mesh, fabric: Fabric) -> Garment {
 }
 
 pub fn obstacle(surface: Surface, placement: Pose) -> Obstacle {
-    Obstacle { name: "obstacle".into(), surface: Arc::new(surface), placement, motion: None }
+    Obstacle {
+        name: "obstacle".into(),
+        surface: Arc::new(surface),
+        deformation: None,
+        placement,
+        motion: None,
+    }
 }
 
 /// A box of half extents around the origin (m).

@@ -1,5 +1,7 @@
 //! A run that ended before its time, taken up again.
 
+use std::collections::BTreeMap;
+
 use super::*;
 use crate::run::sealed::OBSTACLES;
 use crate::run::state::obstacle_bytes;
@@ -284,11 +286,11 @@ fn a_run_half_removed_for_another_is_none() {
 
 #[test]
 fn a_state_of_version_1_is_read_without_anchors() {
-    let whole = Frame { handle_anchors: Vec::new(), ..frame(1) };
+    let whole = Frame { handle_anchors: Vec::new(), obstacle_points: BTreeMap::new(), ..frame(1) };
     let mut content = frame_bytes(&whole);
-    // Version 2 added the count of handles at the end, of which there are none here, and four counts
-    // after frame number, time, nine stages and seven counts.
-    assert_eq!(content.split_off(content.len() - 4), [0; 4]);
+    // Version 2 added the counts of handles and of deforming obstacles at the end, of which there are
+    // none here, and four counts after frame number, time, nine stages and seven counts.
+    assert_eq!(content.split_off(content.len() - 8), [0; 8]);
     let counts = 4 + 8 + 9 * 8 + 7 * 8;
     assert!(content.drain(counts..counts + 4 * 8).all(|byte| byte == 0));
     let dir = run(2);

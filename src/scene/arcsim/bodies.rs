@@ -7,6 +7,7 @@ use super::fields::{Fields, array, json, list, object};
 use crate::scene::document::{Node, Value};
 use crate::scene::error::{LoadError, Problem};
 use crate::scene::mot::bodies_from_mot;
+use crate::scene::numbered::numbered;
 use crate::scene::source::joined;
 
 impl Import<'_> {
@@ -147,40 +148,4 @@ fn motion(fields: &mut Fields<'_>) -> Result<Option<(&'static str, Node)>, LoadE
     let index: u32 = node.deserialize()?;
     let name = json(&node.place, index.to_string());
     Ok(Some(("motion", name)))
-}
-
-/// The pattern with its %d, %4d or %04d replaced by a number; `None` unless there is exactly one.
-fn numbered(pattern: &str, number: usize) -> Option<String> {
-    let (before, rest) = pattern.split_once('%')?;
-    let (width, after) = rest.split_once('d')?;
-    if !width.chars().all(|c| c.is_ascii_digit()) || after.contains('%') {
-        return None;
-    }
-    let digits = width.trim_start_matches('0').parse().unwrap_or(0);
-    let number = if width.starts_with('0') {
-        format!("{number:0digits$}")
-    } else {
-        format!("{number:digits$}")
-    };
-    Some(format!("{before}{number}{after}"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn patterns_are_those_of_printf() {
-        let cases = [
-            ("body%04d.obj", Some("body0007.obj")),
-            ("b%d", Some("b7")),
-            ("b%3dx", Some("b  7x")),
-            ("b%s", None),
-            ("plain", None),
-            ("%d%d", None),
-        ];
-        for (pattern, expected) in cases {
-            assert_eq!(numbered(pattern, 7).as_deref(), expected);
-        }
-    }
 }

@@ -10,7 +10,8 @@ mod setup;
 pub use camera::{CameraFile, KeyFile, MatrixFile, SampleFile};
 pub use fabric::{ElasticFile, FabricFile, WarpWeft};
 pub use parts::{
-    GarmentFile, HandleFile, KeyframeFile, MotionFile, ObstacleFile, TransformFile, VelocityFile,
+    GarmentFile, HandleFile, KeyframeFile, MeshKeyFile, MeshSequenceFile, MotionFile, ObstacleFile,
+    TransformFile, VelocityFile,
 };
 pub(super) use setup::stages;
 pub use setup::{AirFile, ContactFile, DynamicsFile, SizingFile, StageName, ViewFile};

@@ -124,12 +124,47 @@ pub struct ObstacleFile {
     /// For messages. Default the mesh file's name.
     pub name: Option<String>,
     /// An OBJ file of a closed surface, counter-clockwise seen from outside.
-    pub mesh: String,
+    pub mesh: Option<String>,
+    /// Instead of `mesh`, for a surface whose points move: meshes with the same triangles, in order
+    /// of time. Points move on straight lines between them, and rest before and after.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub meshes: Option<Vec<MeshKeyFile>>,
+    /// Instead of `meshes`: files with a number in their names.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh_sequence: Option<MeshSequenceFile>,
     /// Placement in the space of the motion, or in the world without one.
     #[serde(default)]
     pub transform: TransformFile,
     /// The name of a motion.
     pub motion: Option<String>,
+}
+
+/// A mesh at a time.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeshKeyFile {
+    /// (s).
+    pub time: f64,
+    /// An OBJ file.
+    pub mesh: String,
+}
+
+/// Numbered OBJ files, one after another.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeshSequenceFile {
+    /// The files' name with one `%d` or `%04d` for the number.
+    pub pattern: String,
+    /// Files a second.
+    pub fps: f64,
+    /// The first number. Default 0.
+    #[serde(default)]
+    pub first: u32,
+    /// The last number. Default as far as there are files.
+    pub last: Option<u32>,
+    /// When the first file holds (s). Default 0.
+    #[serde(default)]
+    pub start_time: f64,
 }
 
 /// Nodes of a garment that are held where they are, or led along a motion.

@@ -4,7 +4,7 @@ mod cloth;
 mod surface;
 
 pub(super) use cloth::ClothObj;
-pub(super) use surface::surface_from_obj;
+pub(super) use surface::{Flat, surface_from_obj};
 
 use std::str::SplitWhitespace;
 use std::sync::Arc;

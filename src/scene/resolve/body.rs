@@ -8,7 +8,7 @@ use super::{Limit, Resolver, stem};
 use crate::scene::error::{LoadError, Problem, nearest};
 use crate::scene::mot::bodies_from_mot;
 use crate::scene::native::{KeyframeFile, MotionFile, ObstacleFile};
-use crate::scene::obj::surface_from_obj;
+use crate::scene::obj::{Flat, surface_from_obj};
 use crate::scene::{Handle, Motion, MotionKey, Obstacle, Pose, Surface};
 
 /// Samples a second of a motion file that does not say.
@@ -125,27 +125,57 @@ impl Resolver<'_> {
         let path = format!("obstacles.{index}");
         check_transform(self.document, &format!("{path}.transform"), &file.transform)?;
         let motion = self.motion_index(&format!("{path}.motion"), &file.motion, names)?;
-        let (mesh_path, text) = self.text_at(&format!("{path}.mesh"), &file.mesh)?;
-        let surface = self.surface(mesh_path, &text)?;
-        let name = file.name.clone().unwrap_or_else(|| stem(&file.mesh));
-        Ok(Obstacle { name, surface, placement: file.transform.pose(), motion })
+        self.check_one_kind_of_mesh(&path, file)?;
+        let (first, surface, deformation) = match &file.mesh {
+            Some(mesh) => {
+                let (mesh_path, text) = self.text_at(&format!("{path}.mesh"), mesh)?;
+                (mesh.clone(), self.surface(mesh_path, &text)?, None)
+            }
+            None => {
+                let (first, surface, deformation) = self.deforming(&path, file)?;
+                (first, surface, Some(Arc::new(deformation)))
+            }
+        };
+        let name = file.name.clone().unwrap_or_else(|| stem(&first));
+        Ok(Obstacle { name, surface, deformation, placement: file.transform.pose(), motion })
+    }
+
+    fn check_one_kind_of_mesh(&self, path: &str, file: &ObstacleFile) -> Result<(), LoadError> {
+        let kinds = [
+            ("mesh", file.mesh.is_some()),
+            ("meshes", file.meshes.is_some()),
+            ("mesh_sequence", file.mesh_sequence.is_some()),
+        ];
+        let given: Vec<&'static str> =
+            kinds.iter().filter(|(_, is_given)| *is_given).map(|(name, _)| *name).collect();
+        let thing = path.to_owned();
+        let problem = match given[..] {
+            [_] => return Ok(()),
+            [first, second, ..] => Problem::Exclusive { thing, first, second },
+            [] => Problem::Missing { thing, needed: "a mesh, meshes or a mesh_sequence" },
+        };
+        Err(problem.at(self.document.place_of(path)))
     }
 
     fn surface(&mut self, path: PathBuf, text: &str) -> Result<Arc<Surface>, LoadError> {
         if let Some(surface) = self.surfaces.get(&path) {
             return Ok(surface.clone());
         }
-        let surface = Arc::new(surface_from_obj(&path.to_string_lossy(), text, self.warnings)?);
+        let name = path.to_string_lossy();
+        let surface = Arc::new(surface_from_obj(&name, text, Flat::LeftOut, self.warnings)?);
+        self.warn_of_open_edges(&name, &surface);
+        self.surfaces.insert(path, surface.clone());
+        Ok(surface)
+    }
+
+    pub(super) fn warn_of_open_edges(&mut self, file: &str, surface: &Surface) {
         let open_edges = surface.open_edge_count();
         if open_edges > 0 {
             self.warnings.push(format!(
-                "{}: the surface has {open_edges} open edges: cloth beside them may be taken for \
-                 inside",
-                path.display()
+                "{file}: the surface has {open_edges} open edges: cloth beside them may be taken \
+                 for inside"
             ));
         }
-        self.surfaces.insert(path, surface.clone());
-        Ok(surface)
     }
 
     fn motion_index(

@@ -3,6 +3,7 @@
 mod body;
 mod camera;
 mod cloth;
+mod deforming;
 mod fabric;
 mod limit;
 mod record;
@@ -188,6 +189,10 @@ impl<'a> Resolver<'a> {
     }
 
     /// The text of the file that is named at `path` of the document, and how to call it.
+    fn is_file(&self, relative: &str) -> bool {
+        self.reader.is_file(&joined(&self.folder, Path::new(relative)))
+    }
+
     fn text_at(&self, path: &str, relative: &str) -> Result<(PathBuf, Arc<str>), LoadError> {
         let file = joined(&self.folder, Path::new(relative));
         let text = self.reader.text(&file);
