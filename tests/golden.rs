@@ -102,7 +102,7 @@ fn witness(headless: &mut Headless, time: f64, options: &PictureOptions) -> Rgba
     let mut subject =
         WitnessSubject { cloth, views: (0..=6).map(|i| camera(f64::from(i) / 6.0)).collect() };
     for (surface, pose) in surfaces.iter().zip(&frame.obstacle_poses) {
-        subject = subject.with_obstacle(surface, *pose);
+        subject = subject.with_obstacle(&surface.positions, *pose);
     }
     let view = camera(time);
     let depth = ShotCamera::frustum_depth_past(&view, cloth);

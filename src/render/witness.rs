@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
-use crate::scene::{Pose, Surface};
+use crate::scene::Pose;
 use crate::shot::View;
 
 use super::bounds::Bounds;
@@ -149,6 +149,7 @@ fn fitted(back: DVec3, points: &[DVec3], resolution: [u32; 2]) -> View {
 mod tests {
     use super::super::fixture::look_at;
     use super::*;
+    use crate::scene::Surface;
 
     fn from_eye(eye: DVec3) -> Vec<View> {
         vec![look_at(eye, dress().centre(), 35.0, [1920, 1080])]
