@@ -69,7 +69,8 @@ fn frame(number: u32) -> Frame {
             rotation: DQuat::from_rotation_z(0.3),
             translation: DVec3::Z,
         }],
-        obstacle_points: [(0, Arc::new(vec![DVec3::X / 3.0; 4]))].into(),
+        obstacle_points: [(0, Arc::new(vec![DVec3::ZERO, DVec3::X / 3.0, DVec3::Y, DVec3::Z]))]
+            .into(),
         handle_anchors: vec![vec![None, Some(DVec3::new(-0.0, 1.0 / 3.0, 2.0))], Vec::new()],
         report: FrameReport {
             stages,
@@ -202,6 +203,9 @@ fn obj_files_carry_shown_frame_numbers_and_read_back_to_the_same_bits() {
     assert_eq!(numbers.iter().map(|n| n.to_bits()).collect::<Vec<_>>(), expected.map(f64::to_bits));
     let text = fs::read_to_string(objs.join("1001_obs_00.obj")).unwrap();
     assert!(text.starts_with("v 0 0 1\n") && text.ends_with("f 3 1 4\n"), "{text}");
+    // Where its points are at the frame, not at rest.
+    let top = text.lines().nth(3).and_then(|line| line.rsplit(' ').next()).unwrap();
+    assert!((top.parse::<f64>().unwrap() - 3.0).abs() < 1e-12, "{top}");
 }
 
 #[test]
