@@ -81,3 +81,14 @@ pub enum LKJ21 {}
 /// Bridson, Fedkiw, Anderson: *Robust Treatment of Collisions, Contact and Friction for Cloth
 /// Animation*, ACM TOG 2002.
 pub enum BFA02 {}
+
+/// Romero, Ly, Rasheed, Charrondiere, Lazarus, Neukirch, Bertails-Descoubes: *Physical Validation of
+/// Simulators in Computer Graphics*, ACM TOG 2021.
+pub enum RLBD21 {}
+
+/// Cerda, Mahadevan: *Geometry and Physics of Wrinkling*, Physical Review Letters 2003.
+pub enum CM03 {}
+
+/// Southwell: *On the Analysis of Experimental Observations in Problems of Elastic Stability*,
+/// Proceedings of the Royal Society A 1932.
+pub enum S32 {}

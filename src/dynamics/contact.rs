@@ -12,6 +12,10 @@ pub const CONTACT_NODES: usize = 4;
 /// and costs digits in the factorisation.
 const STICKING_RATIO: f64 = 1e3;
 
+/// The same where the step is iterated, and slip found whatever the creep: light nodes under the load
+/// of stiff cloth, a thousand times what inertia asks, may not creep visibly either.
+const ITERATED_STICKING_RATIO: f64 = 1e6;
+
 /// A point of the cloth near a surface, at the start of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPoint {
@@ -137,7 +141,8 @@ impl IteratedContact {
             return None;
         }
         let slip = Self::slip(contact, velocity);
-        let c = friction_coefficient(contact.friction, self.pressure, slip.length(), self.mass, dt);
+        let limit = contact.friction * self.pressure;
+        let c = coefficient(limit, ITERATED_STICKING_RATIO * self.mass / dt, slip.length());
         let projector = outer(contact.normal, contact.normal);
         Some(ContactResponse {
             force: contact.normal * (-contact.stiffness * gap) - c * slip,
@@ -151,7 +156,7 @@ impl IteratedContact {
         let depth = (-Self::gap(contact, velocity, dt)).max(0.0);
         let slip = Self::slip(contact, velocity).length();
         let limit = contact.friction * self.pressure;
-        let sticking = STICKING_RATIO * self.mass / dt;
+        let sticking = ITERATED_STICKING_RATIO * self.mass / dt;
         let first_slip = limit / sticking;
         let friction = if slip <= first_slip {
             0.5 * sticking * slip * slip
@@ -195,8 +200,11 @@ pub fn pressure_estimate(gap: f64, separation: f64, stiffness: f64, mass: f64, d
 /// one step. A force beyond mu N lets the creep grow by the ratio of the two each step until it
 /// slips.
 pub fn friction_coefficient(mu: f64, pressure: f64, slip: f64, mass: f64, dt: f64) -> f64 {
-    let limit = mu * pressure;
-    let sticking = STICKING_RATIO * mass / dt;
+    coefficient(mu * pressure, STICKING_RATIO * mass / dt, slip)
+}
+
+/// min( limit / slip, sticking ) (N s/m).
+fn coefficient(limit: f64, sticking: f64, slip: f64) -> f64 {
     // Compared as forces: no division by a slip of zero.
     if limit >= sticking * slip {
         // Without pressure nothing sticks, not even at rest.

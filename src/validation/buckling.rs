@@ -15,7 +15,7 @@ use super::{Claim, Experiment, ExperimentError, fabric};
 const ONSETS: [(f64, f64); 4] = [(0.0, 18.178), (0.2, 16.594), (0.3, 15.943), (0.35, 15.645)];
 
 const LENGTH: f64 = 0.4;
-const WIDTH: f64 = LENGTH / 20.0;
+const WIDTH: f64 = LENGTH / 40.0;
 const THICKNESS: f64 = WIDTH / 15.0;
 const CELLS_ACROSS: f64 = 4.0;
 const RIGIDITY: f64 = 1e-3;
@@ -23,6 +23,9 @@ const DENSITY: f64 = 0.2;
 
 /// How much gravity is tilted sideways.
 const IMPERFECTION: f64 = 1e-3;
+
+/// Where the further lines are drawn through, in shares of the last one's end.
+const NEARER: [[f64; 2]; 2] = [[0.6, 0.7], [0.8, 0.9]];
 
 const TOLERANCE: f64 = 0.05;
 
@@ -39,14 +42,16 @@ pub fn experiments() -> Vec<Experiment> {
 /// Gamma_c, after Southwell ([`S32`](crate::papers::S32)): the tip's way sideways grows like
 /// Gamma / (1 - (Gamma / Gamma_c)^2), for a load and its opposite buckle alike; so Gamma over the
 /// way, as a straight line in Gamma^2, ends at Gamma_c^2. A first line is drawn through small loads,
-/// a second close to where it ends.
+/// others ever closer to where it ends.
 fn onset_of(layout: Layout, nu: f64) -> Result<f64, ExperimentError> {
     let mut strip = upright(layout, nu);
     let mut stiffness = |gamma: f64| -> Result<f64, ExperimentError> {
         Ok(gamma / sideways(&mut strip, gamma, nu)?)
     };
     let mut onset = line_end([4.0, 8.0], &mut stiffness)?;
-    onset = line_end([0.8 * onset, 0.9 * onset], &mut stiffness)?;
+    for shares in NEARER {
+        onset = line_end(shares.map(|share| share * onset), &mut stiffness)?;
+    }
     Ok(onset)
 }
 
@@ -67,11 +72,8 @@ fn sideways(strip: &mut Specimen, gamma: f64, nu: f64) -> Result<f64, Experiment
     let gravity = gamma * RIGIDITY * (1.0 - nu * nu) / (DENSITY * LENGTH.powi(3));
     strip.gravity = DVec3::new(0.0, IMPERFECTION, -1.0) * gravity;
     let load = strip.mass() * gravity;
-    let steps = strip.settle(&Rest { residual: 1e-8, load, first_step: 0.1, steps_max: 1000 })?;
+    strip.settle(&Rest { residual: 1e-7, load, first_step: 0.1, steps_max: 1000 })?;
     let way = strip.mean_position(|u| u.x == LENGTH).y;
-    if std::env::var("VERBOSE").is_ok() {
-        eprintln!("nu {nu} gamma {gamma} way {way} steps {steps}");
-    }
     Ok(way)
 }
 

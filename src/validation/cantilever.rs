@@ -21,8 +21,8 @@ const LENGTH: f64 = 0.2;
 const DENSITY: f64 = 0.2;
 /// As thick as this a homogeneous sheet would have the membrane stiffness used (m).
 const THICKNESS: f64 = LENGTH / 100.0;
-const CELLS_ACROSS: f64 = 5.0;
-const CELLS_ALONG: f64 = 40.0;
+const CELLS_ACROSS: f64 = 8.0;
+const CELLS_ALONG: f64 = 64.0;
 
 const TOLERANCE: f64 = 0.02;
 
@@ -95,7 +95,7 @@ pub(super) fn strip(layout: Layout, cell: f64) -> Mesh {
         size: DVec2::new(LENGTH + 0.5 * cell, width),
         cell,
         layout,
-        columns: vec![0.5 * cell],
+        columns: if 0.5 > 1.0 { vec![-0.5 * cell, 0.5 * cell] } else { vec![0.5 * cell] },
     };
     sheet.mesh(|u| u.extend(0.0))
 }

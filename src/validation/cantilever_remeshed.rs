@@ -1,10 +1,10 @@
 //! The cantilever of [`cantilever`](super::cantilever), remeshed as fine as its curvature asks
 //! whenever it has come to rest under a part of its load.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use super::cantilever::{ELASTICA, fabric_for, gravity, held, loads, rest, strip};
-use super::sheet::Layout;
+use super::cantilever::{ELASTICA, fabric_for, gravity, loads, rest};
+use super::sheet::{Layout, Sheet};
 use super::specimen::Specimen;
 use super::{Claim, Experiment, ExperimentError};
 use crate::mesh::{IdVec, Mesh};
@@ -13,9 +13,13 @@ use crate::scene::SizingSettings;
 use crate::sizing::{base_metric, faces_to_vertices};
 
 const LENGTH: f64 = 0.2;
+const WIDTH: f64 = LENGTH / 8.0;
 
 /// Cells along the strip before it is first refined.
-const CELLS: f64 = 10.0;
+const CELLS: f64 = 20.0;
+
+/// (m).
+const EDGE_MIN: f64 = LENGTH / 80.0;
 
 const TOLERANCE: f64 = 0.05;
 
@@ -34,9 +38,9 @@ pub fn experiments() -> Vec<Experiment> {
 
 fn sizing() -> SizingSettings {
     SizingSettings {
-        refine_angle: super::knob("ANGLE", 0.15),
-        edge_length_min: LENGTH / 80.0,
-        edge_length_max: LENGTH / 8.0,
+        refine_angle: 0.05,
+        edge_length_min: EDGE_MIN,
+        edge_length_max: LENGTH / 20.0,
         ..SizingSettings::default()
     }
 }
@@ -44,24 +48,19 @@ fn sizing() -> SizingSettings {
 /// H / W at each load of the table.
 fn drop_to_reach(layout: Layout) -> Result<Vec<f64>, ExperimentError> {
     let fabric = fabric_for(20.0);
-    let clamp = held(LENGTH / CELLS);
-    let mut mesh = strip(layout, LENGTH / CELLS);
+    let mut mesh = strip(layout);
     let mut ratios = Vec::new();
     for gamma in loads() {
         for _ in 0..2 {
             let mut strip = Specimen::new(mesh, &fabric);
-            strip.clamp_at(|u| u.x < clamp, |u| u.extend(0.0));
+            strip.clamp_at(|u| u.x < EDGE_MIN, |u| u.extend(0.0));
             strip.gravity = gravity(gamma);
             strip.settle(&rest(&strip))?;
-            if std::env::var("VERBOSE").is_ok() {
-                let tip = strip.mean_position(|u| u.x == LENGTH);
-                eprintln!("gamma {gamma} faces {} H/W {}", strip.mesh.face_count(), -tip.z / tip.x);
-            }
             mesh = refined(strip.into_mesh());
         }
         if ELASTICA.iter().any(|(named, _)| *named == gamma) {
             let mut strip = Specimen::new(mesh, &fabric);
-            strip.clamp_at(|u| u.x < clamp, |u| u.extend(0.0));
+            strip.clamp_at(|u| u.x < EDGE_MIN, |u| u.extend(0.0));
             strip.gravity = gravity(gamma);
             strip.settle(&rest(&strip))?;
             let tip: DVec3 = strip.mean_position(|u| u.x == LENGTH);
@@ -70,6 +69,15 @@ fn drop_to_reach(layout: Layout) -> Result<Vec<f64>, ExperimentError> {
         }
     }
     Ok(ratios)
+}
+
+/// Clamped at u = 0 half way between two rows, as [`cantilever`](super::cantilever) is, so close
+/// that there is no room for another between them.
+fn strip(layout: Layout) -> Mesh {
+    let origin = DVec2::new(-0.5 * EDGE_MIN, -0.5 * WIDTH);
+    let size = DVec2::new(LENGTH + 0.5 * EDGE_MIN, WIDTH);
+    let columns = vec![0.5 * EDGE_MIN];
+    Sheet { origin, size, cell: LENGTH / CELLS, layout, columns }.mesh(|u| u.extend(0.0))
 }
 
 /// Remeshed by its shape alone: nothing is near, and nothing moves.

@@ -1,17 +1,24 @@
 //! Fabrics for experiments.
 
-use crate::scene::{Fabric, MeasuredFabric};
+use crate::scene::{Fabric, IsotropicSheet};
 
-/// A fabric of constant stiffness without Poisson coupling: bending rigidity D (N m), membrane
-/// stiffness k (N/m), density (kg/m^2).
+/// An isotropic sheet without damping: D (N m), E h (N/m), density (kg/m^2), and no Poisson's ratio.
 pub fn plain(bending: f64, stretching: f64, density: f64) -> Fabric {
-    // Table entries are doubled when they are read.
-    let half = 0.5 * stretching;
-    Fabric::Measured(MeasuredFabric {
+    isotropic(bending, stretching, 0.0, density)
+}
+
+/// The same with a Poisson's ratio.
+pub fn isotropic(bending: f64, stretching: f64, poisson_ratio: f64, density: f64) -> Fabric {
+    let sheet = IsotropicSheet {
         density,
-        stretching: [[half, 0.0, half, half]; 6],
-        bending: [[bending; 5]; 3],
-        damping: 0.0,
-        strain_limits: None,
-    })
+        membrane_stiffness: stretching,
+        poisson_ratio,
+        bending_rigidity: bending,
+    };
+    Fabric::Elastic(sheet.fabric())
+}
+
+/// E h = 12 (1 - nu^2) D / h^2 (N/m) of a homogeneous sheet of thickness h (m).
+pub fn homogeneous_stretching(bending: f64, poisson_ratio: f64, thickness: f64) -> f64 {
+    12.0 * (1.0 - poisson_ratio * poisson_ratio) * bending / (thickness * thickness)
 }

@@ -14,10 +14,10 @@ use crate::sim::{SimSettings, Simulation, SizingMode};
 const DENSITY: f64 = 0.2;
 
 /// How long it is watched (frames), and when its acceleration is taken.
-const FRAMES: u32 = 15;
-const SETTLED_FRAME: u32 = 5;
+const FRAMES: u32 = 50;
+const SETTLED_FRAME: u32 = 25;
 
-/// What moves slower at the end sticks (m/s): a slope 0.002 too steep makes it faster.
+/// What moves slower at the end sticks (m/s): a slope 0.001 too steep would make it faster.
 const STICKING_SPEED: f64 = 0.01;
 
 /// Halvings of the range of slopes.

@@ -5,9 +5,15 @@
 //! layout and [`specimen`]s that are clamped, loaded and brought to rest.
 
 pub mod bending;
+mod buckling;
+mod cantilever;
+mod cantilever_remeshed;
+mod capstan;
+mod drape;
 mod energy;
 mod experiment;
 mod fabric;
+mod first_mode;
 mod free_fall;
 mod hanging;
 mod incline;
@@ -15,10 +21,13 @@ mod momentum;
 mod order;
 mod patch;
 mod remesh_only;
+mod roll_up;
 pub mod sheet;
 pub mod specimen;
 mod stage;
+mod stick_slip;
 mod triangulate;
+mod wrinkles;
 
 pub use experiment::{Claim, Experiment, ExperimentError, Outcome, Row, Tolerance};
 
@@ -27,11 +36,20 @@ pub fn experiments() -> Vec<Experiment> {
     [
         patch::experiments(),
         hanging::experiments(),
+        cantilever::experiments(),
+        cantilever_remeshed::experiments(),
+        buckling::experiments(),
+        roll_up::experiments(),
+        wrinkles::experiments(),
+        drape::experiments(),
+        incline::experiments(),
+        stick_slip::experiments(),
+        capstan::experiments(),
         free_fall::experiments(),
         momentum::experiments(),
         energy::experiments(),
+        first_mode::experiments(),
         order::experiments(),
-        incline::experiments(),
         remesh_only::experiments(),
     ]
     .into_iter()

@@ -60,7 +60,7 @@ fn measure(layout: Layout) -> Result<Vec<f64>, ExperimentError> {
             pull(&mut strip, &outer, force);
             pull(&mut strip, &inner, -force);
             let load = force.length();
-            strip.settle(&Rest { residual: 1e-6, load, first_step: 0.02, steps_max: 500 })?;
+            strip.settle(&Rest { residual: 1e-5, load, first_step: 0.02, steps_max: 500 })?;
             let along = strip.mean_position(&outer) - strip.mean_position(&inner);
             let change = along.z.atan2(along.x) - turned;
             turned += change - TAU * (change / TAU).round();

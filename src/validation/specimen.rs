@@ -39,6 +39,12 @@ const SHRINKAGE: f64 = 0.25;
 /// Longer steps are no longer Newton steps but the same (s).
 const STEP_MAX: f64 = 1e3;
 
+/// A way is cut or lengthened to its minimum between these shares of it, unless that is all of it but
+/// for little. Nearer minima are those of the membrane alone, which the next step relaxes anyway.
+const SHARE_MIN: f64 = 0.3;
+const SHARE_MAX: f64 = 10.0;
+const SHARE_EXACT: f64 = 0.01;
+
 /// Energies closer than this, relative, are the same.
 const ENERGY_ROUNDING: f64 = 1e-12;
 
@@ -58,6 +64,22 @@ impl Specimen {
             let target = self.state.position[node];
             self.clamps.push(HandleSpring { node, target, stiffness: CLAMP_STIFFNESS });
         }
+    }
+
+    /// Puts the nodes of chosen material positions somewhere (m, world), and holds them there.
+    pub fn clamp_at(&mut self, is_chosen: impl Fn(DVec2) -> bool, place: impl Fn(DVec2) -> DVec3) {
+        for vertex in self.vertices(is_chosen) {
+            let (node, target) = (self.node_of(vertex), place(self.mesh.material(vertex)));
+            self.state.position[node] = target;
+            self.clamps.push(HandleSpring { node, target, stiffness: CLAMP_STIFFNESS });
+        }
+    }
+
+    /// The mesh where the specimen is now.
+    pub fn into_mesh(self) -> Mesh {
+        let Self { mut mesh, state, .. } = self;
+        state.scatter(&mut [&mut mesh]);
+        mesh
     }
 
     pub fn vertices(&self, is_chosen: impl Fn(DVec2) -> bool) -> Vec<VertexId> {
@@ -119,39 +141,98 @@ impl Specimen {
         self.system.linear_system().1.to_vec()
     }
 
-    /// Steps that each begin and end without velocity, until the forces on all nodes are balanced:
-    /// with growing steps Newton's method for the least energy. Returns how many it took.
+    /// Brings the forces on all nodes into balance: the least energy, by conjugate gradients after
+    /// Polak and Ribiere, preconditioned by the simulator. A step that begins at rest goes
+    /// (M / h^2 + K)^-1 f far: the longer the step, the more like Newton's. Returns how many it took.
     ///
     /// # Errors
     /// If it takes too many, or a step fails.
     pub fn settle(&mut self, rest: &Rest) -> Result<usize, ExperimentError> {
         let mut dt = rest.first_step;
         let mut energy = self.potential_energy();
-        let mut residual = f64::INFINITY;
+        let mut force = self.forces();
+        let mut residual = root_sum(&force) / rest.load;
+        let mut last: Option<Search> = None;
         for steps in 0..rest.steps_max {
-            residual = root_sum(&self.forces()) / rest.load;
             if residual <= rest.residual {
                 return Ok(steps);
             }
-            let before = self.state.position.clone();
-            self.state.velocity.fill(DVec3::ZERO);
-            self.step(dt)?;
-            self.state.velocity.fill(DVec3::ZERO);
-            let after = self.potential_energy();
-            if after <= energy + ENERGY_ROUNDING * energy.abs() {
-                energy = after;
+            let start = self.state.position.clone();
+            let pull = self.way_of_a_step(dt)?;
+            let way = last.as_ref().and_then(|l| l.conjugate(&pull, &force));
+            let way = way.unwrap_or_else(|| pull.clone());
+            let left = self.line_minimum(&start, &way, &force);
+            let (after, size) = (self.potential_energy(), root_sum(&left) / rest.load);
+            if after < energy - ENERGY_ROUNDING * energy.abs() || size < residual {
+                last = Some(Search { pull, way, force });
+                (energy, residual, force) = (after, size, left);
                 dt = (dt * GROWTH).min(STEP_MAX);
-            } else {
-                self.state.position = before;
+                continue;
+            }
+            self.state.position = start;
+            // Without a memory at first, then with a shorter step.
+            if last.take().is_none() {
                 dt *= SHRINKAGE;
             }
         }
         Err(ExperimentError::NotAtRest { steps: rest.steps_max, residual, limit: rest.residual })
     }
 
+    /// Where a step from rest takes the nodes (m); the state stays.
+    fn way_of_a_step(&mut self, dt: f64) -> Result<Vec<DVec3>, StepError> {
+        let start = self.state.position.clone();
+        self.state.velocity.fill(DVec3::ZERO);
+        self.step(dt)?;
+        self.state.velocity.fill(DVec3::ZERO);
+        let end = std::mem::replace(&mut self.state.position, start);
+        Ok(end.iter().zip(&self.state.position).map(|(x, x0)| *x - *x0).collect())
+    }
+
+    /// Moves along a way to where its own component of the forces vanishes, as the forces at both
+    /// ends of the way tell; returns the forces there (N).
+    fn line_minimum(&mut self, start: &[DVec3], way: &[DVec3], force: &[DVec3]) -> Vec<DVec3> {
+        self.place(start, way, 1.0);
+        let end = self.forces();
+        let (work, work_left) = (dot(force, way), dot(&end, way));
+        let share = work / (work - work_left);
+        if !(SHARE_MIN..=SHARE_MAX).contains(&share) || (share - 1.0).abs() < SHARE_EXACT {
+            return end;
+        }
+        self.place(start, way, share);
+        self.forces()
+    }
+
+    fn place(&mut self, start: &[DVec3], way: &[DVec3], share: f64) {
+        let ends = start.iter().zip(way).map(|(x, d)| *x + *d * share);
+        self.state.position.iter_mut().zip(ends).for_each(|(x, end)| *x = end);
+    }
+
     pub fn node_of(&self, vertex: VertexId) -> usize {
         self.mesh.node_of(vertex).index()
     }
+}
+
+/// One step of the search for the least energy.
+struct Search {
+    /// As the preconditioner sees the forces (m).
+    pull: Vec<DVec3>,
+    /// As it was gone (m).
+    way: Vec<DVec3>,
+    /// At its start (N).
+    force: Vec<DVec3>,
+}
+
+impl Search {
+    /// The next way, conjugate to this one; `None` where the memory is of no use.
+    fn conjugate(&self, pull: &[DVec3], force: &[DVec3]) -> Option<Vec<DVec3>> {
+        let beta = (dot(pull, force) - dot(pull, &self.force)) / dot(&self.pull, &self.force);
+        let way: Vec<DVec3> = pull.iter().zip(&self.way).map(|(z, d)| *z + *d * beta).collect();
+        (beta > 0.0 && dot(&way, force) > 0.0).then_some(way)
+    }
+}
+
+fn dot(a: &[DVec3], b: &[DVec3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum()
 }
 
 fn root_sum(forces: &[DVec3]) -> f64 {

@@ -12,7 +12,9 @@ use glam::{DVec2, DVec3};
 use super::sheet::{Layout, Sheet};
 use super::{Claim, Experiment, ExperimentError, fabric, stage};
 use crate::mesh::{Id, Mesh};
-use crate::scene::{Dynamics, ElasticFabric, Fabric, Handle, Motion, MotionKey, Pose, Scene};
+use crate::scene::{
+    Dynamics, ElasticFabric, Fabric, Handle, Motion, MotionKey, Pose, Scene, SolverChoice,
+};
 use crate::sim::{SimSettings, Simulation, SizingMode};
 
 /// eps and mu*(eps), until the strip lies down on the plane.
@@ -82,13 +84,6 @@ fn slipping(mu: f64) -> Result<f64, ExperimentError> {
         let foot = foot(&frame.garments[0]);
         let eps = 1.0 - (top.z - foot.z) / LENGTH;
         let slip = (foot.x - start.x).abs() / LENGTH;
-        if std::env::var("VERBOSE").is_ok() && frame.number % 4 == 0 {
-            eprintln!(
-                "mu {mu} eps {eps:.4} mu* {:.4} slip {slip:.5} foot {:.6}",
-                threshold(eps),
-                foot.z
-            );
-        }
         if slip > SLIP {
             let share = (SLIP - before.1) / (slip - before.1);
             return Ok(before.0 + share * (eps - before.0));
@@ -143,7 +138,7 @@ fn scene(mu: f64) -> Scene {
     scene.contact.friction_obstacle = mu;
     // The foot carries the push of the whole strip.
     scene.contact.stiffness = 1e8;
-    scene.dynamics = Dynamics { iterations: super::knob("ITER", 30.0) as u32, tolerance: 1e-6 };
+    scene.dynamics = Dynamics { iterations: 30, tolerance: 1e-6, solver: SolverChoice::Direct };
     let half = DVec3::new(2.0, 2.0, 0.5);
     let below = Pose { translation: DVec3::NEG_Z * half.z, ..Pose::IDENTITY };
     scene.obstacles = vec![stage::obstacle(stage::block(half), below)];
@@ -158,7 +153,7 @@ fn coming_down() -> Motion {
     };
     // Keys all along the way make the speed even.
     let keys = (0..=20).map(|k| f64::from(k) / 20.0);
-    Motion::new(keys.map(|share| at(share * DURATION, share * DEEPEST * LENGTH)).collect())
+    Motion::from_keys(keys.map(|share| at(share * DURATION, share * DEEPEST * LENGTH)).collect())
         .expect("the keys are in order")
 }
 
@@ -166,9 +161,7 @@ fn coming_down() -> Motion {
 fn fabric() -> Fabric {
     let stretching = fabric::homogeneous_stretching(RIGIDITY, 0.0, THICKNESS);
     match fabric::plain(RIGIDITY, stretching, DENSITY) {
-        Fabric::Elastic(plain) => {
-            Fabric::Elastic(ElasticFabric { damping: super::knob("DAMP", 0.005), ..plain })
-        }
+        Fabric::Elastic(plain) => Fabric::Elastic(ElasticFabric { damping: 0.005, ..plain }),
         other => other,
     }
 }

@@ -65,3 +65,33 @@ fn a_split_that_is_collapsed_again_changes_nothing() {
 fn a_patch_on_an_incline_sticks_and_slides_as_coulomb_says() {
     assert_holds("incline/mu-0.3");
 }
+
+#[test]
+fn a_cantilever_droops_as_the_elastica_does() {
+    assert_holds("cantilever/gamma-5/aligned/fixed");
+}
+
+#[test]
+fn an_end_moment_rolls_a_strip_up() {
+    assert_holds("roll-up/aligned");
+}
+
+#[test]
+fn wrinkles_have_the_length_that_costs_least() {
+    assert_holds("wrinkle-wavelength/aligned");
+}
+
+#[test]
+fn a_strip_swings_with_its_first_mode() {
+    assert_holds("first-mode");
+}
+
+#[test]
+fn a_strip_pressed_on_a_rough_plane_slips_when_it_must() {
+    assert_holds("stick-slip/mu-0.1");
+}
+
+#[test]
+fn a_strip_that_slips_over_a_drum_is_pulled_harder_on_one_side() {
+    assert_holds("capstan/mu-0.3");
+}

@@ -13,10 +13,10 @@ use super::specimen::Specimen;
 use super::{Claim, Experiment, ExperimentError, fabric};
 
 const LENGTH: f64 = 0.2;
-const WAVELENGTH: f64 = LENGTH / 5.0;
+const WAVELENGTH: f64 = LENGTH / 2.0;
 /// Three wavelengths.
 const WIDTH: f64 = 3.0 * WAVELENGTH;
-const CELL: f64 = WAVELENGTH / 10.0;
+const CELL: f64 = WAVELENGTH / 20.0;
 /// (N/m).
 const TENSION: f64 = 100.0;
 const STRETCHING: f64 = 1e4;
@@ -29,12 +29,15 @@ const SEED: f64 = 1e-7;
 
 /// Steps that each end at rest: each multiplies a mode by the pressure over that at which the mode
 /// would stand by itself.
-const STEPS: usize = 6;
+const STEPS: usize = 20;
+
+/// Steps before, in which seeds take the shape that the mesh gives them.
+const STEPS_BEFORE: usize = 10;
 
 pub fn experiments() -> Vec<Experiment> {
     let of = |layout: Layout| {
         let name = format!("wrinkle-wavelength/{}", layout.name());
-        let claim = Claim::relative(name, WAVELENGTH, 0.03);
+        let claim = Claim::relative(name, WAVELENGTH, 0.05);
         Experiment::new(vec![claim], move || measure(layout))
     };
     vec![of(Layout::Aligned), of(Layout::Irregular)]
@@ -66,19 +69,16 @@ fn measure(layout: Layout) -> Result<Vec<f64>, ExperimentError> {
     let mut specimen = Specimen::new(mesh, &fabric);
     let is_side = |u: DVec2| u.x == 0.0 || u.x == LENGTH || u.y == 0.0 || u.y == WIDTH;
     specimen.clamp_at(is_side, |u| (u * stretch).extend(0.0));
-    let before = HALF_WAVES.map(|n| height(&specimen, n));
-    for _ in 0..STEPS {
-        specimen.state.velocity.fill(glam::DVec3::ZERO);
-        specimen.step(1e3)?;
-    }
-    let growth: Vec<f64> = HALF_WAVES
-        .iter()
-        .zip(before)
-        .map(|(&n, before)| (height(&specimen, n) / before).abs().ln())
-        .collect();
-    if std::env::var("VERBOSE").is_ok() {
-        eprintln!("growth {growth:?}");
-    }
+    let mut relax = |steps: usize| -> Result<[f64; HALF_WAVES.len()], ExperimentError> {
+        for _ in 0..steps {
+            specimen.state.velocity.fill(glam::DVec3::ZERO);
+            specimen.step(1e3)?;
+        }
+        Ok(HALF_WAVES.map(|n| height(&specimen, n)))
+    };
+    let (before, after) = (relax(STEPS_BEFORE)?, relax(STEPS)?);
+    let growth: Vec<f64> =
+        after.iter().zip(before).map(|(after, before)| (after / before).abs().ln()).collect();
     Ok(vec![2.0 * WIDTH / fastest(&growth)?])
 }
 
