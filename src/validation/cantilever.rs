@@ -27,7 +27,7 @@ const CELLS_ALONG: f64 = 64.0;
 const TOLERANCE: f64 = 0.02;
 
 pub fn experiments() -> Vec<Experiment> {
-    Layout::ALL.map(|layout| experiment(layout)).into()
+    Layout::ALL.map(experiment).into()
 }
 
 fn experiment(layout: Layout) -> Experiment {
