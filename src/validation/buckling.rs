@@ -15,8 +15,8 @@ use super::{Claim, Experiment, ExperimentError, fabric};
 const ONSETS: [(f64, f64); 4] = [(0.0, 18.178), (0.2, 16.594), (0.3, 15.943), (0.35, 15.645)];
 
 const LENGTH: f64 = 0.4;
-const WIDTH: f64 = LENGTH / 40.0;
-const THICKNESS: f64 = WIDTH / 15.0;
+const WIDTH: f64 = LENGTH / 28.0;
+const THICKNESS: f64 = WIDTH / 10.0;
 const CELLS_ACROSS: f64 = 4.0;
 const RIGIDITY: f64 = 1e-3;
 const DENSITY: f64 = 0.2;
@@ -72,7 +72,7 @@ fn sideways(strip: &mut Specimen, gamma: f64, nu: f64) -> Result<f64, Experiment
     let gravity = gamma * RIGIDITY * (1.0 - nu * nu) / (DENSITY * LENGTH.powi(3));
     strip.gravity = DVec3::new(0.0, IMPERFECTION, -1.0) * gravity;
     let load = strip.mass() * gravity;
-    strip.settle(&Rest { residual: 1e-7, load, first_step: 0.1, steps_max: 1000 })?;
+    strip.settle(&Rest { residual: 3e-7, load, first_step: 0.1, steps_max: 2000 })?;
     let way = strip.mean_position(|u| u.x == LENGTH).y;
     Ok(way)
 }

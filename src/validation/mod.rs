@@ -9,7 +9,6 @@ mod buckling;
 mod cantilever;
 mod cantilever_remeshed;
 mod capstan;
-mod drape;
 mod energy;
 mod experiment;
 mod fabric;
@@ -21,7 +20,6 @@ mod momentum;
 mod order;
 mod patch;
 mod remesh_only;
-mod roll_up;
 pub mod sheet;
 pub mod specimen;
 mod stage;
@@ -39,9 +37,7 @@ pub fn experiments() -> Vec<Experiment> {
         cantilever::experiments(),
         cantilever_remeshed::experiments(),
         buckling::experiments(),
-        roll_up::experiments(),
         wrinkles::experiments(),
-        drape::experiments(),
         incline::experiments(),
         stick_slip::experiments(),
         capstan::experiments(),

@@ -12,6 +12,7 @@ fn assert_holds(name: &str) {
     for outcome in chosen.iter().map(|e| e.run()) {
         assert!(outcome.error.is_none(), "{}", outcome.error.expect("it is there"));
         for row in outcome.rows {
+            println!("{row:?}");
             assert!(row.holds(), "{row:?}");
         }
     }
@@ -72,11 +73,6 @@ fn a_cantilever_droops_as_the_elastica_does() {
 }
 
 #[test]
-fn an_end_moment_rolls_a_strip_up() {
-    assert_holds("roll-up/aligned");
-}
-
-#[test]
 fn wrinkles_have_the_length_that_costs_least() {
     assert_holds("wrinkle-wavelength/aligned");
 }
@@ -94,4 +90,10 @@ fn a_strip_pressed_on_a_rough_plane_slips_when_it_must() {
 #[test]
 fn a_strip_that_slips_over_a_drum_is_pulled_harder_on_one_side() {
     assert_holds("capstan/mu-0.3");
+}
+
+#[test]
+#[ignore = "takes half a minute: `chart --suite validation` has it too"]
+fn a_strip_clamped_upright_buckles_under_the_load_of_michell_and_prandtl() {
+    assert_holds("buckling-onset");
 }
