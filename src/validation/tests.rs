@@ -12,7 +12,6 @@ fn assert_holds(name: &str) {
     for outcome in chosen.iter().map(|e| e.run()) {
         assert!(outcome.error.is_none(), "{}", outcome.error.expect("it is there"));
         for row in outcome.rows {
-            println!("{row:?}");
             assert!(row.holds(), "{row:?}");
         }
     }
