@@ -21,6 +21,8 @@ pub(super) enum Finding {
     Sliding(DVec3),
     /// Lifted off: no force.
     Open,
+    /// Pressed closed against what inertia says: the pressure that friction counts on (N).
+    Closed(f64),
 }
 
 /// A contact has broken away if its friction exceeds mu N by this factor: below, the linearisation
@@ -46,16 +48,31 @@ impl System {
         dt: f64,
     ) -> Vec<(&'a ContactPoint, ContactResponse)> {
         let found = |(index, contact): (usize, &'a ContactPoint)| {
-            let response = self.response(contact, state, forces, dt)?;
-            match self.findings.get(index).unwrap_or(&Finding::AsTaken) {
-                Finding::AsTaken => Some((contact, response)),
-                Finding::Sliding(force) => {
-                    Some((contact, response.with_friction(contact.normal, *force)))
-                }
-                Finding::Open => None,
-            }
+            let finding = *self.findings.get(index).unwrap_or(&Finding::AsTaken);
+            Some((contact, self.response_as_found(contact, finding, state, forces, dt)?))
         };
         forces.contacts.iter().enumerate().filter_map(found).collect()
+    }
+
+    fn response_as_found(
+        &self,
+        contact: &ContactPoint,
+        finding: Finding,
+        state: &StepState,
+        forces: &StepForces<'_>,
+        dt: f64,
+    ) -> Option<ContactResponse> {
+        let taken = || self.response(contact, state, forces, dt);
+        match finding {
+            Finding::AsTaken => taken(),
+            Finding::Sliding(force) => Some(taken()?.with_friction(contact.normal, force)),
+            Finding::Open => None,
+            Finding::Closed(pressure) => {
+                let velocity = contact.weighted_sum(&state.velocity);
+                let mass = contact.effective_mass(&self.masses);
+                Some(contact.closed_response(velocity, pressure, mass, dt))
+            }
+        }
     }
 
     /// A contact's response at the start of a step; `None` if it will be open.
@@ -84,15 +101,24 @@ impl System {
         let (mut excess, mut pressure) = (0.0, 0.0);
         let mut findings = vec![Finding::AsTaken; forces.contacts.len()];
         for (index, contact) in forces.contacts.iter().enumerate() {
-            let Some(response) = self.response(contact, state, forces, dt) else { continue };
+            let before = *self.findings.get(index).unwrap_or(&Finding::AsTaken);
             let change = contact.weighted_sum(&self.change);
+            let Some(response) = self.response_as_found(contact, before, state, forces, dt) else {
+                let velocity = contact.weighted_sum(&state.velocity) + change;
+                findings[index] = before;
+                if before == Finding::AsTaken && contact.depth_after(velocity, dt) > 0.0 {
+                    let force = self.closing_force(contact, velocity, dt);
+                    excess += force;
+                    findings[index] = Finding::Closed(force);
+                }
+                continue;
+            };
             let force = response.force - response.tangent * change;
             let normal = force.dot(contact.normal);
             let held = force - contact.normal * normal;
             let limit = contact.friction * normal.max(0.0);
             pressure += normal.max(0.0);
-            findings[index] = match self.findings.get(index).unwrap_or(&Finding::AsTaken) {
-                Finding::Open => Finding::Open,
+            findings[index] = match before {
                 _ if normal < 0.0 => {
                     excess -= normal;
                     Finding::Open
@@ -102,13 +128,15 @@ impl System {
                     excess += (friction.length() - limit).abs();
                     Finding::Sliding(friction.normalize_or_zero() * limit)
                 }
-                Finding::AsTaken
-                    if contact.friction > 0.0 && held.length() > EXCESS_FACTOR * limit =>
-                {
+                _ if contact.friction > 0.0 && held.length() > EXCESS_FACTOR * limit => {
                     excess += held.length() - limit;
-                    Finding::Sliding(held.normalize_or_zero() * limit)
+                    match before {
+                        Finding::Closed(_) => Finding::Closed(normal),
+                        _ => Finding::Sliding(held.normalize_or_zero() * limit),
+                    }
                 }
-                Finding::AsTaken => Finding::AsTaken,
+                Finding::Closed(_) => Finding::Closed(normal),
+                other => other,
             };
         }
         let again = excess > EXCESS_SHARE * pressure;
@@ -116,5 +144,13 @@ impl System {
             self.findings = findings;
         }
         again
+    }
+
+    /// What keeps a contact that a solution has passed from being passed (N): the penalty at the
+    /// depth it reached, but no more than stops the contact point within the step.
+    fn closing_force(&self, contact: &ContactPoint, velocity: DVec3, dt: f64) -> f64 {
+        let depth = contact.depth_after(velocity, dt);
+        let mass = contact.effective_mass(&self.masses);
+        (contact.stiffness * depth).min(mass * depth / (dt * dt))
     }
 }

@@ -73,8 +73,7 @@ impl ContactPoint {
     /// The response to the cloth's velocity at the contact point; `None` if the gap will be open at
     /// the end of the step under inertia and gravity, for a penalty must not pull.
     ///
-    /// Normal: f_n = -k (gap + h n.(v + dv - v_s)). Friction: f_t = -c (I - n n^T)(v + dv - v_s)
-    /// with c of [`friction_coefficient`].
+    /// Friction counts on [`pressure_estimate`].
     pub fn response(
         &self,
         velocity: DVec3,
@@ -82,21 +81,42 @@ impl ContactPoint {
         mass: f64,
         dt: f64,
     ) -> Option<ContactResponse> {
-        let relative = velocity - self.surface_velocity;
-        let separation = relative.dot(self.normal);
+        let separation = (velocity - self.surface_velocity).dot(self.normal);
         let falling = self.gap + dt * separation + dt * dt * gravity.dot(self.normal);
         if falling > 0.0 {
             return None;
         }
-        let slip = relative - separation * self.normal;
         let pressure = pressure_estimate(self.gap, separation, self.stiffness, mass, dt);
+        Some(self.closed_response(velocity, pressure, mass, dt))
+    }
+
+    /// The response of a contact that is closed, with the pressure (N) that friction counts on.
+    ///
+    /// Normal: f_n = -k (gap + h n.(v + dv - v_s)). Friction: f_t = -c (I - n n^T)(v + dv - v_s)
+    /// with c of [`friction_coefficient`].
+    pub fn closed_response(
+        &self,
+        velocity: DVec3,
+        pressure: f64,
+        mass: f64,
+        dt: f64,
+    ) -> ContactResponse {
+        let relative = velocity - self.surface_velocity;
+        let separation = relative.dot(self.normal);
+        let slip = relative - separation * self.normal;
         let c = friction_coefficient(self.friction, pressure, slip.length(), mass, dt);
         let projector = outer(self.normal, self.normal);
         let push = -self.stiffness * (self.gap + dt * separation);
-        Some(ContactResponse {
+        ContactResponse {
             force: push * self.normal - c * slip,
             tangent: projector * (dt * self.stiffness) + (DMat3::IDENTITY - projector) * c,
-        })
+        }
+    }
+
+    /// How deep the contact point is at the end of a step that ends with a velocity (m); 0 where
+    /// the gap is open.
+    pub fn depth_after(&self, velocity: DVec3, dt: f64) -> f64 {
+        (-(self.gap + dt * (velocity - self.surface_velocity).dot(self.normal))).max(0.0)
     }
 }
 

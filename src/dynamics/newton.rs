@@ -2,7 +2,8 @@
 //!
 //! Every matrix is positive definite (see [`stretch`](super::stretch) and
 //! [`bending`](super::bending)), so each direction goes downhill; the line search makes it arrive.
-//! The first direction is that of the linearised step.
+//! The first direction is that of the linearised step, whose contacts are predicted: it is only asked
+//! to lower the energy, and taken as it is if it does not.
 
 use glam::DVec3;
 
@@ -45,11 +46,18 @@ impl System {
                 outcome.convergence = Convergence::Reached;
                 break;
             }
-            let Some(next) = self.line_search(&iterate, start, forces, &contacts, dt) else {
-                outcome.convergence = Convergence::Stalled;
-                break;
-            };
-            iterate = next;
+            // The first right side is linearised elsewhere and with other contacts: no slope of the
+            // energy here.
+            let slope = if iteration == 0 { 0.0 } else { self.descent() };
+            match self.line_search(&iterate, start, forces, &contacts, slope, dt) {
+                Some(next) => iterate = next,
+                // Not a minimum of anything, but what a linearised step would do.
+                None if iteration == 0 => iterate = iterate.moved(&self.change, 1.0, start, dt),
+                None => {
+                    outcome.convergence = Convergence::Stalled;
+                    break;
+                }
+            }
         }
         Ok((iterate, outcome))
     }
@@ -127,6 +135,11 @@ impl System {
         forces.contacts.iter().map(at).collect()
     }
 
+    /// How fast the energy falls along `change`, per share of it (J).
+    fn descent(&self) -> f64 {
+        self.right_side.iter().zip(&self.change).map(|(b, d)| b.dot(*d)).sum::<f64>().max(0.0)
+    }
+
     /// The iterate after the largest share 1, 1/2, 1/4, ... of `change` that lowers the energy;
     /// `None` if none does.
     fn line_search(
@@ -135,20 +148,15 @@ impl System {
         start: &StepState,
         forces: &StepForces<'_>,
         contacts: &[IteratedContact],
+        slope: f64,
         dt: f64,
     ) -> Option<Iterate> {
         let energy = |at: &Iterate| self.incremental_energy(at, start, forces, contacts, dt);
         let before = energy(iterate);
-        let slope: f64 = self
-            .right_side
-            .iter()
-            .zip(&self.change)
-            .map(|(b, d): (&DVec3, &DVec3)| b.dot(*d))
-            .sum();
         let mut share = 1.0;
         for _ in 0..=HALVINGS_MAX {
             let trial = iterate.moved(&self.change, share, start, dt);
-            let promised = ARMIJO_SHARE * share * slope.max(0.0);
+            let promised = ARMIJO_SHARE * share * slope;
             if energy(&trial) <= before - promised + ROUNDING_SHARE * before.abs() {
                 return Some(trial);
             }

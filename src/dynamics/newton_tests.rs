@@ -186,3 +186,24 @@ fn iterated_contact_holds_a_fast_sheet_that_a_linearised_step_lets_sink() {
         assert!((lost - 0.2 * stopped).abs() < 1e-3 * stopped, "{lost} m/s for {stopped} m/s");
     }
 }
+
+#[test]
+fn a_first_direction_that_does_not_lower_the_energy_does_not_freeze_the_cloth() {
+    let (mut system, mut state) = system_of(&[&sheet(4, 0.4, 0.2)], 0.0);
+    system.set_dynamics(Dynamics { iterations: 2, tolerance: 1e-9, ..Dynamics::default() });
+    state.velocity.fill(DVec3::new(0.0, 0.0, -5.0));
+    let wall: Vec<ContactPoint> = (0..system.node_count())
+        .map(|node| ContactPoint {
+            nodes: ContactPoint::weighted(&[(node, 1.0)]),
+            normal: DVec3::Z,
+            gap: 0.0,
+            // It comes up as fast as the sheet comes down.
+            surface_velocity: DVec3::new(0.0, 0.0, 5.0),
+            stiffness: 1e3,
+            friction: 0.5,
+        })
+        .collect();
+    let forces = StepForces { contacts: &wall, ..StepForces::NONE };
+    system.step_frozen(&mut state, &forces, DT).unwrap();
+    assert!(state.velocity.iter().all(|v| v.z > 0.5), "{}", state.velocity[0]);
+}

@@ -174,8 +174,8 @@ impl System {
         outcome.factorisations = after.factorisations - before.factorisations;
         // Checked before anything is written.
         finite("velocity after the step", &end.velocity)?;
+        finite("position after the step", &end.position)?;
         *state = StepState { position: end.position, velocity: end.velocity };
-        state.check_finite()?;
         Ok(outcome)
     }
 
@@ -191,7 +191,7 @@ impl System {
         let free_side = self.right_side.clone();
         let mut active_contacts = self.add_found_contacts(start, forces, dt);
         let mut solutions = 1;
-        if active_contacts > 0 {
+        if !forces.contacts.is_empty() {
             self.solve_change(Accuracy::Rough)?;
             while solutions <= CORRECTIONS_MAX && self.examine_contacts(start, forces, dt) {
                 self.remove_contacts();

@@ -492,3 +492,20 @@ fn a_contact_does_not_hold_back_cloth_that_is_pulled_off() {
     let (held, free) = (pulled(&touching), pulled(&|_| Vec::new()));
     assert!((held - free).length() < 1e-3 * free.length(), "{held} and {free} m/s");
 }
+
+#[test]
+fn a_contact_that_inertia_leaves_open_is_closed_where_the_cloth_is_pressed_into_it() {
+    let (mut system, mut state) = system_of(&[&sheet(6, 0.3, 0.2)], 0.0);
+    let contacts: Vec<ContactPoint> = resting_contacts(&system, 0.3)
+        .into_iter()
+        .map(|c| ContactPoint { gap: 1e-4, stiffness: 1e4, ..c })
+        .collect();
+    let target = state.position[24] - DVec3::Z * 0.1;
+    let handles = [HandleSpring { node: 24, target, stiffness: 100.0 }];
+    let forces = StepForces { handles: &handles, contacts: &contacts, ..StepForces::NONE };
+    let outcome = system.step_frozen(&mut state, &forces, DT).unwrap();
+    assert!(outcome.active_contacts > 0);
+    // 10 N on a penalty of 1e4 N/m.
+    let deepest = state.position.iter().map(|x| x.z).fold(0.0, f64::min);
+    assert!((-2e-3..0.0).contains(&deepest), "{deepest} m");
+}

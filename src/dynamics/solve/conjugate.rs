@@ -95,23 +95,33 @@ impl ConjugateGradients {
         Outcome::UsedUp { iterations: budget.iterations }
     }
 
-    /// Residual and first direction at the guess; returns the residual's squared norm.
+    /// Residual and first direction at the guess, or at 0 where that is the better guess: cloth at
+    /// rest does not fall. Returns the residual's squared norm.
     fn start(
         &mut self,
         matrix: &BlockMatrix,
         b: &[DVec3],
-        x: &[DVec3],
+        x: &mut [DVec3],
         precondition: &mut impl FnMut(&[DVec3], &mut [DVec3]),
     ) -> f64 {
         self.residual.clear();
         self.residual.extend_from_slice(b);
-        if x.iter().any(|x| *x != DVec3::ZERO) {
-            matrix.product_into(x, &mut self.product);
-            self.residual.iter_mut().zip(&self.product).for_each(|(r, p)| *r -= *p);
-            precondition(&self.residual, &mut self.preconditioned);
-        }
         self.direction.copy_from_slice(&self.preconditioned);
-        dot(&self.residual, &self.preconditioned)
+        let at_zero = dot(b, &self.preconditioned);
+        if x.iter().all(|x| *x == DVec3::ZERO) {
+            return at_zero;
+        }
+        matrix.product_into(x, &mut self.product);
+        add(&mut self.residual, &self.product, -1.0);
+        precondition(&self.residual, &mut self.preconditioned);
+        let at_guess = dot(&self.residual, &self.preconditioned);
+        if at_guess <= at_zero {
+            self.direction.copy_from_slice(&self.preconditioned);
+            return at_guess;
+        }
+        x.fill(DVec3::ZERO);
+        self.residual.copy_from_slice(b);
+        at_zero
     }
 }
 
