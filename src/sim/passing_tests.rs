@@ -179,10 +179,16 @@ fn mean_velocity(frame: &Frame) -> DVec3 {
     momentum / mesh.total_material_area()
 }
 
-fn assert_carried(frames: &[Frame]) {
+/// The sheet goes where the body went that met it, and not much faster than the body's fastest point
+/// (m/s): the contact layer pushes it out by a thickness within a step.
+fn assert_carried_at(fastest: f64, frames: &[Frame]) {
     let velocity = mean_velocity(frames.last().unwrap());
-    assert!(velocity.z > 0.1 * SPEED && velocity.z < 1.2 * SPEED, "{velocity}");
-    assert!(velocity.truncate().length() < 0.2 * SPEED, "{velocity}");
+    assert!(velocity.z > 0.1 * fastest && velocity.z < 1.2 * fastest, "{velocity}");
+    assert!(velocity.truncate().length() < 0.2 * fastest, "{velocity}");
+}
+
+fn assert_carried(frames: &[Frame]) {
+    assert_carried_at(SPEED, frames);
 }
 
 #[test]
@@ -261,11 +267,14 @@ fn a_spinning_blade_does_not_cut_a_sheet() {
 
 /// A ball below the sheet which becomes a long egg high above it, all by its own points: they move
 /// by 20 thicknesses in a step and more.
+/// How much taller the deforming ball becomes (1/s).
+const GROWTH: f64 = 5.0;
+
 fn deforming() -> Scene {
     let still = vec![key(0.0, DVec3::ZERO, 0.0, PoseVelocity::default())];
     let mut scene = against(flat(), ball(0.1), still);
     let at = |time: f64| {
-        let stretch = DVec3::new(1.0 + 15.0 * time, 1.0, 1.0 + 5.0 * time);
+        let stretch = DVec3::new(1.0 + 15.0 * time, 1.0, 1.0 + GROWTH * time);
         let shift = DVec3::new(0.013, 0.021, SPEED * time - 0.15);
         let positions = ball(0.1).positions.iter().map(|&p| p * stretch + shift).collect();
         PointKey { time, positions }
@@ -278,7 +287,8 @@ fn deforming() -> Scene {
 
 #[test]
 fn a_body_that_deforms_fast_does_not_pass_through_a_sheet() {
-    assert_carried(&assert_nothing_passes(&deforming()));
+    let fastest = SPEED + 0.1 * GROWTH;
+    assert_carried_at(fastest, &assert_nothing_passes(&deforming()));
     assert_nothing_passes(&pinned(deforming()));
 }
 
