@@ -104,12 +104,15 @@ fn put_report(writer: &mut ByteWriter, report: &FrameReport) {
         intersections,
         steps_taken,
         largest_stretch,
+        elastic_energy,
+        kinetic_energy,
         trapped_nodes,
         warnings,
     } = report;
     writer.put(stages.entries().map(|(_, seconds)| seconds));
     writer.put(counts.entries().map(|(_, count)| count));
     writer.put([*cpu_seconds, *view_factor_min, *view_factor_mean, *largest_stretch]);
+    writer.put([*elastic_energy, *kinetic_energy]);
     writer.put(*steps_taken);
     writer.put(u8::from(intersections.is_some()));
     writer.put(intersections.unwrap_or(0) as u64);
@@ -137,6 +140,8 @@ fn get_report(version: u32, reader: &mut ByteReader) -> Result<FrameReport, Stat
     let counts = get_counts(version, reader)?;
     let [cpu_seconds, view_factor_min, view_factor_mean, largest_stretch] =
         reader.get("frame measures")?;
+    let [elastic_energy, kinetic_energy] =
+        if version < 2 { [0.0; 2] } else { reader.get("energies")? };
     let steps_taken = reader.get("step count")?;
     let counted = reader.get::<u8>("intersection flag")?;
     let intersections: u64 = reader.get("intersection count")?;
@@ -151,6 +156,8 @@ fn get_report(version: u32, reader: &mut ByteReader) -> Result<FrameReport, Stat
         intersections: (counted != 0).then_some(intersections as usize),
         steps_taken,
         largest_stretch,
+        elastic_energy,
+        kinetic_energy,
         trapped_nodes,
         warnings,
     })

@@ -8,7 +8,7 @@ use super::RunError;
 use crate::sim::{Frame, FrameReport};
 
 /// The columns in order. More may follow in later versions; these stay first.
-pub const STATS_COLUMNS: [&str; 33] = [
+pub const STATS_COLUMNS: [&str; 35] = [
     "frame",
     "time_s",
     "faces",
@@ -42,6 +42,8 @@ pub const STATS_COLUMNS: [&str; 33] = [
     "solver_iterations",
     "factorisations",
     "unconverged_steps",
+    "elastic_energy",
+    "kinetic_energy",
 ];
 
 /// Appends rows; each is in the file when `append` returns.
@@ -112,6 +114,8 @@ pub(super) fn row(shown: i64, frame: &Frame, writing_cpu_seconds: f64) -> String
         intersections,
         steps_taken,
         largest_stretch,
+        elastic_energy,
+        kinetic_energy,
         trapped_nodes,
         warnings: _,
     } = &frame.report;
@@ -134,6 +138,7 @@ pub(super) fn row(shown: i64, frame: &Frame, writing_cpu_seconds: f64) -> String
         trapped_nodes.to_string(),
     ]);
     fields.extend(counts.entries().map(|(_, count)| count.to_string()));
+    fields.extend([elastic_energy.to_string(), kinetic_energy.to_string()]);
     debug_assert_eq!(fields.len(), STATS_COLUMNS.len());
     fields.join(",")
 }
@@ -148,6 +153,6 @@ mod tests {
         let names = StageSeconds::default().entries().map(|(name, _)| format!("{name}_s"));
         assert_eq!(STATS_COLUMNS[7..16], names);
         let counts = StageCounts::default().entries().map(|(name, _)| name);
-        assert_eq!(STATS_COLUMNS[22..], counts);
+        assert_eq!(STATS_COLUMNS[22..33], counts);
     }
 }

@@ -81,6 +81,8 @@ fn frame(number: u32) -> Frame {
             intersections: (number > 0).then_some(3),
             steps_taken: 8,
             largest_stretch: 0.125,
+            elastic_energy: 0.5,
+            kinetic_energy: 0.25,
             trapped_nodes: 2,
             warnings: vec!["strain limit missed by 1 % — kept".into()],
         },
@@ -170,9 +172,10 @@ fn statistics_have_the_agreed_columns_and_the_frame_numbers_of_the_shot() {
          collision_s,sizing_s,view_s,remesh_s,untangle_s,other_s,view_factor_min,\
          view_factor_mean,intersections,steps_taken,largest_stretch,\
          trapped_nodes,contacts,impacts,degenerate_hinges,splits,collapses,flips,vetoes,\
-         solutions,solver_iterations,factorisations,unconverged_steps\n\
-         1001,0,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,,8,0.125,2,5,0,0,2,0,0,0,0,0,0,0\n\
-         1002,0.04,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,3,8,0.125,2,5,0,0,2,0,0,0,0,0,0,0\n"
+         solutions,solver_iterations,factorisations,unconverged_steps,\
+         elastic_energy,kinetic_energy\n\
+         1001,0,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,,8,0.125,2,5,0,0,2,0,0,0,0,0,0,0,0.5,0.25\n\
+         1002,0.04,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,3,8,0.125,2,5,0,0,2,0,0,0,0,0,0,0,0.5,0.25\n"
     );
 }
 

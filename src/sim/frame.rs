@@ -83,6 +83,10 @@ pub struct FrameReport {
     pub steps_taken: u32,
     /// Largest principal stretch of a face minus 1.
     pub largest_stretch: f64,
+    /// Stretch and bending energy of all cloth at the end of the frame (J).
+    pub elastic_energy: f64,
+    /// Kinetic energy of all cloth at the end of the frame (J).
+    pub kinetic_energy: f64,
     /// Nodes inside an obstacle at the end of the frame, as between two parts that overlap.
     pub trapped_nodes: usize,
     /// What went wrong and was mended, in words.

@@ -175,6 +175,8 @@ impl Simulation {
 
     fn publish(&self, mut clock: StageClock, mut report: FrameReport) -> Frame {
         frame::measure(&self.garments, &mut report);
+        report.elastic_energy = self.cloth.system.potential_energy(&self.cloth.state);
+        report.kinetic_energy = self.cloth.system.kinetic_energy(&self.cloth.state);
         report.stages = clock.finish();
         report.cpu_seconds = clock.cpu_seconds();
         Frame {

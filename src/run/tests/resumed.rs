@@ -286,13 +286,19 @@ fn a_run_half_removed_for_another_is_none() {
 
 #[test]
 fn a_state_of_version_1_is_read_without_anchors() {
-    let whole = Frame { handle_anchors: Vec::new(), obstacle_points: BTreeMap::new(), ..frame(1) };
+    let mut whole =
+        Frame { handle_anchors: Vec::new(), obstacle_points: BTreeMap::new(), ..frame(1) };
+    whole.report.elastic_energy = 0.0;
+    whole.report.kinetic_energy = 0.0;
     let mut content = frame_bytes(&whole);
     // Version 2 added the counts of handles and of deforming obstacles at the end, of which there are
-    // none here, and four counts after frame number, time, nine stages and seven counts.
+    // none here, four counts after frame number, time, nine stages and seven counts, and two
+    // energies after the four measures that follow.
     assert_eq!(content.split_off(content.len() - 8), [0; 8]);
     let counts = 4 + 8 + 9 * 8 + 7 * 8;
     assert!(content.drain(counts..counts + 4 * 8).all(|byte| byte == 0));
+    let energies = counts + 4 * 8;
+    assert!(content.drain(energies..energies + 2 * 8).all(|byte| byte == 0));
     let dir = run(2);
     let file = seal(Kind { version: 1, ..FRAME }, &content).unwrap();
     fs::write(dir.path().join("frames/000001.sfr"), file).unwrap();
