@@ -21,6 +21,7 @@ use crate::scene::{BendingModel, PlateCompliance};
 pub(super) struct FoldLaw {
     kind: Kind,
     tangent: Vec<f64>,
+    is_fallback: bool,
 }
 
 #[derive(Debug)]
@@ -43,21 +44,36 @@ const SAFE_SHARE: f64 = 0.5;
 
 impl FoldLaw {
     /// Of a mesh's interior edges, numbered as they come. `None` where each hinge stands for itself.
+    /// Where moments cannot be had, mid-edge normals stand in for them; see
+    /// [`is_fallback`](Self::is_fallback).
     pub fn new(mesh: &Mesh, plate: PlateCompliance, model: BendingModel) -> Option<Self> {
         let numbers = hinge_numbers(mesh);
         let mid_edge = faces(mesh, plate, Shape::MidEdge, &numbers);
         let count = mesh.edges().filter(|&c| !mesh.is_boundary(c)).count();
-        let (kind, majorant) = match model {
+        let law = |kind, majorant: &[FaceStiffness], share| Self {
+            kind,
+            tangent: diagonal(majorant, count, share),
+            is_fallback: false,
+        };
+        Some(match model {
             BendingModel::Hinges => return None,
-            BendingModel::MidEdge => (Kind::Faces(mid_edge.clone()), mid_edge),
+            BendingModel::MidEdge => law(Kind::Faces(mid_edge.clone()), &mid_edge, 1.0),
             BendingModel::Quadratic => {
                 let faces = faces(mesh, plate, Shape::Quadratic, &numbers);
-                (Kind::Faces(faces.clone()), faces)
+                law(Kind::Faces(faces.clone()), &faces, 1.0)
             }
-            BendingModel::Moments => (moments(mesh, plate, &numbers, count)?, mid_edge),
-        };
-        let share = if model == BendingModel::Moments { SAFE_SHARE } else { 1.0 };
-        Some(Self { kind, tangent: diagonal(&majorant, count, share) })
+            BendingModel::Moments => match moments(mesh, plate, &numbers, count) {
+                Some(kind) => law(kind, &mid_edge, SAFE_SHARE),
+                None => {
+                    Self { is_fallback: true, ..law(Kind::Faces(mid_edge.clone()), &mid_edge, 1.0) }
+                }
+            },
+        })
+    }
+
+    /// Whether this is the law of mid-edge normals because the compliance of moments has no factor.
+    pub fn is_fallback(&self) -> bool {
+        self.is_fallback
     }
 
     /// What the step's matrix has for K, per hinge (N m): a diagonal that is nowhere softer, made of
@@ -113,7 +129,8 @@ fn faces(
 /// each face, and the moment across an edge the same on both sides; the normal at the edge stands
 /// where this asks it to stand. Exact for constant moments on any mesh, where
 /// [`Shape::MidEdge`] is too stiff and [`Shape::Quadratic`] too soft. `None` if the compliance of
-/// all edges has no factor, as with a face without area.
+/// all edges has no factor: the sheet is almost free to bend in some way, or too large for the
+/// memory.
 fn moments(
     mesh: &Mesh,
     plate: PlateCompliance,

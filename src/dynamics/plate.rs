@@ -8,8 +8,14 @@
 use glam::{DMat3, DVec2};
 
 use crate::math::SymTensor2;
-use crate::mesh::{CornerId, FaceId, Mesh};
+use crate::mesh::{CornerId, FaceId, Mesh, signed_area};
 use crate::scene::PlateCompliance;
+
+/// Least height of a face over its longest edge, in shares of that edge. A thinner face counts as
+/// one of this height. With its edges' moments scaled to compliances of one, the determinant goes
+/// with the sixth power of the height: at 1e-2 it is 1e-12, of which rounding leaves four digits, at
+/// 1e-3 none. Faces made by remeshing are about ten times as high.
+const HEIGHT_SHARE_MIN: f64 = 1e-2;
 
 /// Determinant of a compliance scaled to a diagonal of ones below which the folds hardly tell some
 /// curvature: then six nodes lie almost on a conic. It is 1 at best, 0.4 in a regular mesh.
@@ -29,8 +35,9 @@ pub(super) enum Shape {
 /// P_ij = A S_i : D^-1 : S_j (1/(N m)): the turn of the face's normal towards that at edge i, if a
 /// moment of 1 N m acts on edge j.
 pub(super) fn turn_compliance(mesh: &Mesh, face: FaceId, plate: PlateCompliance) -> DMat3 {
-    let area = mesh.material_area(face);
-    symmetric(moment_shapes(mesh.face_material(face), area), plate, area)
+    let corners = thickened(mesh.face_material(face));
+    let area = signed_area(corners);
+    symmetric(moment_shapes(corners, area), plate, area)
 }
 
 /// How the folds at a face's edges follow the moments there (1/(N m)), as a shape says; the rows
@@ -44,7 +51,8 @@ pub(super) fn fold_compliance(
     let sides = face.corners().map(|corner| Side::new(mesh, corner));
     if shape == Shape::Quadratic {
         let folds = sides.map(|side| side.map_or(SymTensor2::ZERO, |s| s.fold_of_curvature()));
-        let compliance = symmetric(folds, plate, 1.0 / mesh.material_area(face));
+        let compliance =
+            symmetric(folds, plate, 1.0 / signed_area(thickened(mesh.face_material(face))));
         if is_well_posed(compliance, sides.map(|side| side.is_some())) {
             return compliance;
         }
@@ -69,6 +77,21 @@ pub(super) fn stiffness(compliance: DMat3, present: [bool; 3]) -> DMat3 {
     DMat3::from_cols_array_2d(&std::array::from_fn(|j| {
         std::array::from_fn(|i| if present[i] && present[j] { inverse.col(j)[i] } else { 0.0 })
     }))
+}
+
+/// A face, its apex moved away from its longest edge to [`HEIGHT_SHARE_MIN`] where it is lower.
+fn thickened(mut corners: [DVec2; 3]) -> [DVec2; 3] {
+    let edge = |k: usize| corners[(k + 2) % 3] - corners[(k + 1) % 3];
+    let longer = |a: usize, b: usize| if edge(b).length() > edge(a).length() { b } else { a };
+    let apex = longer(longer(0, 1), 2);
+    let along = edge(apex);
+    let length = along.length();
+    let height = along.perp_dot(corners[apex] - corners[(apex + 1) % 3]) / length;
+    let lack = HEIGHT_SHARE_MIN * length - height;
+    if lack > 0.0 {
+        corners[apex] += along.perp() * (lack / length);
+    }
+    corners
 }
 
 /// S_i = -sym(e_j e_k^T) l_i / (4 A^2): the M which puts a moment of 1 N m on edge i and none on the
@@ -116,14 +139,10 @@ impl Side {
     /// `None` at the boundary. Across a seam the other panel is turned to where this one's edge is.
     fn new(mesh: &Mesh, corner: CornerId) -> Option<Self> {
         let other = mesh.opposite(corner)?;
-        let from =
-            |c: CornerId, vertex| mesh.material(vertex) - mesh.material(mesh.edge_vertices(c)[0]);
-        let edge = from(corner, mesh.edge_vertices(corner)[1]);
-        let other_edge = from(other, mesh.edge_vertices(other)[1]);
+        let [(edge, own), (other_edge, arm)] = [corner, other].map(|c| edge_and_apex(mesh, c));
         // The other face runs along the edge the other way.
-        let arm = from(other, mesh.vertex_at(other)) - other_edge;
         let turn = rotation_between(-other_edge, edge);
-        Some(Self { edge, own: from(corner, mesh.vertex_at(corner)), across: turn.rotate(arm) })
+        Some(Self { edge, own, across: turn.rotate(arm - other_edge) })
     }
 
     /// Heights of both apexes over the edge (m).
@@ -149,6 +168,14 @@ impl Side {
         let foot = apex.dot(self.edge) / self.edge.length_squared();
         (SymTensor2::outer(apex) - SymTensor2::outer(self.edge) * foot) * (0.5 / height)
     }
+}
+
+/// The edge opposite to a corner, and the corner as seen from the edge's start (m).
+fn edge_and_apex(mesh: &Mesh, corner: CornerId) -> (DVec2, DVec2) {
+    let corners = thickened(mesh.face_material(corner.face()));
+    let [apex, start, end] =
+        [corner, corner.next(), corner.previous()].map(|c| corners[c.position()]);
+    (end - start, apex - start)
 }
 
 /// The unit complex number that turns one direction to another.

@@ -149,6 +149,14 @@ impl System {
         self.garments[garment].nodes.clone()
     }
 
+    /// Garments which were to bend by moments in balance, but bend by mid-edge normals, because the
+    /// compliance of their moments cannot be factorised.
+    pub fn bending_fallbacks(&self) -> impl Iterator<Item = usize> {
+        let fell_back = |law: &FoldLaw| law.is_fallback();
+        let garments = self.garments.iter().enumerate();
+        garments.filter_map(move |(k, g)| g.fold_law.as_ref().is_some_and(fell_back).then_some(k))
+    }
+
     /// Per node: density times a third of the material area of the faces around it (kg).
     pub fn masses(&self) -> &[f64] {
         &self.masses

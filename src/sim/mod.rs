@@ -82,6 +82,7 @@ impl Simulation {
             frame: 0,
         };
         let mut report = FrameReport::default();
+        simulation.warn_of_bending(&mut report);
         simulation.settle(&mut clock, &mut report)?;
         simulation.perturb();
         clock.time(Stage::Collision, || simulation.clear_obstacles(&mut report));

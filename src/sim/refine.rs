@@ -29,6 +29,21 @@ impl Simulation {
         }
         if edits > 0 {
             clock.time(Stage::Remesh, || self.cloth.renew(&self.scene, &self.garments));
+            self.warn_of_bending(report);
+        }
+    }
+
+    /// Names the garments that do not bend by the model they are to bend by.
+    pub(super) fn warn_of_bending(&self, report: &mut FrameReport) {
+        for index in self.cloth.system.bending_fallbacks() {
+            let name = &self.scene.garments[index].name;
+            let warning = format!(
+                "garment {name:?} bends by mid-edge normals: the compliance of its moments cannot be factorised"
+            );
+            // Rounds of refinement before frame 0 would repeat it.
+            if !report.warnings.contains(&warning) {
+                report.warnings.push(warning);
+            }
         }
     }
 

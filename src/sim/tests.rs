@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 use super::*;
 use crate::mesh::RawMesh;
 use crate::scene::{
-    Air, Contact, Dynamics, Garment, Handle, MeasuredFabric, Obstacle, SizingSettings,
-    StageSwitches, Surface, ViewSettings,
+    Air, Contact, Dynamics, Garment, Handle, IsotropicSheet, MeasuredFabric, Obstacle,
+    SizingSettings, StageSwitches, Surface, ViewSettings,
 };
 use crate::shot::{CameraKey, CameraPath, Lens, Track};
 
@@ -279,4 +279,25 @@ fn a_handle_holds_its_nodes_until_it_lets_go() {
     let start = DVec3::new(-0.5, -0.5, 0.5);
     assert!(corner(&frames[4]).distance(start) < 1e-3);
     assert!(corner(&frames[8]).z < 0.45);
+}
+
+#[test]
+fn a_garment_that_bends_by_another_model_than_asked_is_named_once() {
+    let mut shot = scene(sheet());
+    shot.stages.dynamics = false;
+    // Beyond what can be loaded: no moments balance it.
+    let sheet = IsotropicSheet {
+        density: 0.2,
+        membrane_stiffness: 100.0,
+        poisson_ratio: 1.5,
+        bending_rigidity: 2e-5,
+    };
+    shot.garments[0].fabric = Fabric::Elastic(sheet.fabric());
+    let frames = run(shot, SizingMode::Adaptive, 1);
+    let named = |frame: &Frame| {
+        let warnings = &frame.report.warnings;
+        warnings.iter().filter(|w| w.contains("\"sheet\" bends by mid-edge normals")).count()
+    };
+    assert_eq!(named(&frames[0]), 1, "{:?}", frames[0].report.warnings);
+    assert_eq!(named(&run(scene(self::sheet()), SizingMode::Adaptive, 0)[0]), 0);
 }

@@ -101,6 +101,14 @@ fn bad_elastic_fabrics_are_answered_with_the_place() {
             format!(r#"{{"elastic": {{{sheet}, "young_modulus": 1, "thickness": 1}}}}"#),
             "f.elastic has both membrane_stiffness and young_modulus",
         ),
+        (
+            format!(r#"{{"elastic": {{{sheet}, "young_modulus": 1}}}}"#),
+            "f.elastic.young_modulus needs thickness beside it",
+        ),
+        (
+            format!(r#"{{"elastic": {{{sheet}, "thickness": 1}}}}"#),
+            "f.elastic.thickness needs young_modulus beside it",
+        ),
         (format!(r#"{{"elastic": {{{sheet}}}, "file": "a"}}"#), "f has both file and elastic"),
         (format!(r#"{{"elastic": {{{sheet}}}, "density": 1}}"#), "has both elastic and density"),
         (r#"{"preset": "silk", "elastic": {}}"#.to_owned(), "f has both preset and elastic"),

@@ -121,7 +121,17 @@ impl Resolver<'_> {
     fn elastic(&self, path: &str, file: &ElasticFile) -> Result<ElasticFabric, LoadError> {
         self.check_elastic(path, file)?;
         let poisson_ratio = file.poisson_ratio.unwrap_or(POISSON_RATIO);
-        let material = file.young_modulus.map(WarpWeft::values).zip(file.thickness);
+        // One of them alone says nothing.
+        let material = match (file.young_modulus, file.thickness) {
+            (Some(modulus), Some(thickness)) => Some((modulus.values(), thickness)),
+            (None, None) => None,
+            (Some(_), None) => {
+                return Err(self.missing(&format!("{path}.young_modulus"), "thickness beside it"));
+            }
+            (None, Some(_)) => {
+                return Err(self.missing(&format!("{path}.thickness"), "young_modulus beside it"));
+            }
+        };
         let membrane_stiffness = match (file.membrane_stiffness, material) {
             (Some(_), Some(_)) => {
                 return Err(self.exclusive(path, "membrane_stiffness", "young_modulus"));
