@@ -15,6 +15,8 @@ pub mod bending;
 mod breakaway;
 pub mod contact;
 pub mod damping;
+#[cfg(test)]
+mod elastic_tests;
 mod energy;
 mod factor;
 mod folds;

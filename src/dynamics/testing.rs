@@ -1,33 +1,10 @@
-//! Meshes and random numbers for this module's tests.
+//! Meshes for this module's tests.
 
 use glam::{DVec2, DVec3};
 
+pub use crate::math::Random;
 use crate::mesh::{Mesh, RawMesh};
 use crate::scene::{Fabric, MeasuredFabric};
-
-/// Reproducible numbers (splitmix64).
-pub struct Random(u64);
-
-impl Random {
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// In [-1, 1).
-    pub fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    /// In the cube [-1, 1)^3.
-    pub fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.number(), self.number(), self.number())
-    }
-}
 
 /// A square sheet, flat in the world at z = 0, of `cells` by `cells` squares with alternating
 /// diagonals, its inner nodes moved by up to `jitter` cells.

@@ -1,9 +1,10 @@
 //! Small mathematics that every other module shares: 2x2 tensors and metrics, 3x2 derivatives,
-//! segments and triangles in space, cubics over the unit interval.
+//! segments and triangles in space, cubics over the unit interval, random numbers.
 
 mod cubic;
 mod mat3x2;
 mod metric;
+mod random;
 mod segment;
 mod tensor;
 mod triangle;
@@ -11,6 +12,7 @@ mod triangle;
 pub use cubic::Cubic;
 pub use mat3x2::Mat3x2;
 pub use metric::{tensor_max, tensor_max_of, tensor_min};
+pub use random::Random;
 pub use segment::{SegmentPair, closest_points_of_segments, segment_distance_squared};
 pub use tensor::{Eigen2, SymTensor2};
 pub use triangle::{ClosestPoint, closest_point_on_triangle, triangles_cross};

@@ -6,6 +6,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::cantilever::{ELASTICA, LENGTH, ratios};
 use super::sheet::{Layout, Sheet};
 use super::specimen::{Rest, Specimen};
 use super::{ExperimentError, GRAVITY};
@@ -17,13 +18,9 @@ use crate::scene::{BendingModel, ElasticFabric, Fabric, IsotropicSheet};
 pub const MODELS: [BendingModel; 4] =
     [BendingModel::Hinges, BendingModel::MidEdge, BendingModel::Quadratic, BendingModel::Moments];
 
-/// Gamma = rho g L^3 / D and H/W of the elastica, drop by reach of the tip.
-const ELASTICA: [(f64, f64); 3] = [(5.0, 0.58572), (20.0, 1.86393), (100.0, 5.88810)];
-
 /// Loads on the way, so that the strip does not swing through.
 const LOADS: [f64; 5] = [1.0, 5.0, 20.0, 50.0, 100.0];
 
-const LENGTH: f64 = 0.2;
 const WIDTH: f64 = 0.05;
 const DENSITY: f64 = 0.2;
 const RIGIDITY: f64 = 1e-5;
@@ -67,21 +64,16 @@ pub fn droop(trial: Trial) -> Result<Droop, ExperimentError> {
     let half = sheet.mesh(|u| u.extend(0.0));
     let mut strip = Specimen::new(mirrored(&half), &fabric(trial.model, trial.slenderness));
     strip.clamp(|u| u.x == 0.0);
-    let mut droop = Droop { errors: [f64::NAN; 3], steps: 0 };
-    for gamma in LOADS {
-        let gravity = gamma * RIGIDITY / (DENSITY * LENGTH.powi(3));
-        strip.gravity = DVec3::NEG_Z * gravity;
-        let load = strip.mass() * gravity;
-        droop.steps +=
-            strip.settle(&Rest { residual: 1e-5, load, first_step: 0.05, steps_max: 2000 })?;
-        let tip = strip.mean_position(|u| u.x == LENGTH);
-        for (error, (named, expected)) in droop.errors.iter_mut().zip(ELASTICA) {
-            if named == gamma {
-                *error = -tip.z / tip.x / expected - 1.0;
-            }
-        }
-    }
-    Ok(droop)
+    let gravity = |gamma: f64| DVec3::NEG_Z * (gamma * RIGIDITY / (DENSITY * LENGTH.powi(3)));
+    let rest = |strip: &Specimen| Rest {
+        residual: 1e-5,
+        load: strip.mass() * strip.gravity.length(),
+        first_step: 0.05,
+        steps_max: 2000,
+    };
+    let (ratios, steps) = ratios(&mut strip, &LOADS, gravity, rest)?;
+    let errors = std::array::from_fn(|k| ratios[k] / ELASTICA[k].1 - 1.0);
+    Ok(Droop { errors, steps })
 }
 
 /// H/W of a strip of 20 cm under its own weight on the earth, bent along warp and along weft.

@@ -17,7 +17,7 @@ pub(super) const ELASTICA: [(f64, f64); 3] = [(5.0, 0.58572), (20.0, 1.86393), (
 /// Where the load is stepped up to on the way, so that the strip does not swing through.
 const ON_THE_WAY: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0];
 
-const LENGTH: f64 = 0.2;
+pub(super) const LENGTH: f64 = 0.2;
 const DENSITY: f64 = 0.2;
 /// As thick as this a homogeneous sheet would have the membrane stiffness used (m).
 const THICKNESS: f64 = LENGTH / 100.0;
@@ -46,16 +46,27 @@ fn drop_to_reach(layout: Layout, cells: f64) -> Result<Vec<f64>, ExperimentError
     let mut strip = Specimen::new(strip(layout, LENGTH / cells), &fabric_for(GAMMA_NAMED));
     let clamp = held(LENGTH / cells);
     strip.clamp(|u| u.x < clamp);
-    let mut ratios = Vec::new();
-    for gamma in loads() {
+    let (ratios, _) = ratios(&mut strip, &loads(), gravity, rest)?;
+    Ok(ratios)
+}
+
+/// H / W of a strip under growing loads, at those of the table, and the steps until rest over all.
+pub(super) fn ratios(
+    strip: &mut Specimen,
+    loads: &[f64],
+    gravity: impl Fn(f64) -> DVec3,
+    rest: impl Fn(&Specimen) -> Rest,
+) -> Result<(Vec<f64>, usize), ExperimentError> {
+    let (mut ratios, mut steps) = (Vec::new(), 0);
+    for &gamma in loads {
         strip.gravity = gravity(gamma);
-        strip.settle(&rest(&strip))?;
+        steps += strip.settle(&rest(strip))?;
         if ELASTICA.iter().any(|(named, _)| *named == gamma) {
             let tip = strip.mean_position(|u| u.x == LENGTH);
             ratios.push(-tip.z / tip.x);
         }
     }
-    Ok(ratios)
+    Ok((ratios, steps))
 }
 
 /// The load at which the fabric has the weight of the earth.

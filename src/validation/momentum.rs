@@ -1,10 +1,11 @@
 //! Inner forces do not push the cloth as a whole.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
-use super::sheet::{Layout, Scatter, Sheet};
+use super::sheet::{Layout, Sheet};
 use super::specimen::Specimen;
 use super::{Claim, Experiment, ExperimentError, fabric};
+use crate::math::Random;
 
 const STEPS: usize = 50;
 const DT: f64 = 5e-3;
@@ -39,9 +40,8 @@ pub(super) fn crumpled(speed: f64) -> Specimen {
     };
     let mesh = sheet.mesh(|u| u.extend(0.0));
     let mut specimen = Specimen::new(mesh, &fabric::plain(2e-5, 500.0, 0.15));
-    let mut random = Scatter(3);
-    let mut vector = || DVec3::new(random.number(), random.number(), random.number());
-    specimen.state.position.iter_mut().for_each(|x| *x += vector() * 0.01);
-    specimen.state.velocity.iter_mut().for_each(|v| *v = vector() * speed);
+    let mut random = Random::new(3);
+    specimen.state.position.iter_mut().for_each(|x| *x += random.vector() * 0.01);
+    specimen.state.velocity.iter_mut().for_each(|v| *v = random.vector() * speed);
     specimen
 }

@@ -4,9 +4,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec2, DVec3};
 
-use super::sheet::{Layout, Scatter, Sheet};
+use super::sheet::{Layout, Sheet};
 use super::specimen::Specimen;
 use super::{Claim, Experiment, ExperimentError, fabric};
+use crate::math::Random;
 use crate::mesh::{Collapse, Mesh, MeshEditor, NodeId};
 use crate::scene::Fabric;
 
@@ -65,7 +66,7 @@ fn bending_energy(specimen: &Specimen, fabric: &Fabric) -> f64 {
 
 /// Every new node goes back to an end of the edge it came from.
 fn split_and_collapsed(mesh: Mesh) -> Result<Mesh, ExperimentError> {
-    let mut random = Scatter(5);
+    let mut random = Random::new(5);
     let mut editor = MeshEditor::new(mesh);
     // By nodes, which stay while faces come and go.
     let edges = editor.edges().filter(|_| random.number() < -1.0 / 3.0);

@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_4;
 use glam::{DVec2, DVec3, Vec2Swizzles};
 
 use super::triangulate::delaunay;
+use crate::math::Random;
 use crate::mesh::{Mesh, RawMesh};
 
 /// How the triangles lie in the sheet.
@@ -111,7 +112,7 @@ impl Sheet {
         let steps = self.fitted_steps();
         let reach = (self.size.length() / steps.min_element()).ceil() as i32 + 1;
         let start = self.origin.with_x(self.columns.last().copied().unwrap_or(self.origin.x));
-        let mut random = Scatter(0);
+        let mut random = Random::new(0);
         let mut points = Vec::new();
         for i in -reach..=reach {
             for j in -reach..=reach {
@@ -121,7 +122,7 @@ impl Sheet {
                     Layout::Rotated(angle) => {
                         start + DVec2::from_angle(angle).rotate(step * self.cell)
                     }
-                    Layout::Irregular => start + (step + random.vector() * JITTER) * steps,
+                    Layout::Irregular => start + (step + random.in_square() * JITTER) * steps,
                 });
             }
         }
@@ -160,25 +161,6 @@ impl Sheet {
 fn divided(start: f64, end: f64, step: f64) -> Vec<f64> {
     let count = ((end - start) / step).round().max(1.0);
     (0..=count as u32).map(|k| start + (end - start) * f64::from(k) / count).collect()
-}
-
-/// Reproducible numbers (splitmix64).
-pub struct Scatter(pub u64);
-
-impl Scatter {
-    /// In [-1, 1).
-    pub fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    pub fn vector(&mut self) -> DVec2 {
-        DVec2::new(self.number(), self.number())
-    }
 }
 
 #[cfg(test)]
