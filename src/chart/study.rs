@@ -21,6 +21,9 @@ pub struct Reference {
     pub edge_length_mean: f64,
     pub steps_per_frame: u32,
     pub newton_iterations: u32,
+    /// Steps of both references that used up their Newton iterations: 0, or the reference is not as
+    /// exact as it is meant to be.
+    pub unconverged_steps: u64,
     /// How far apart the two references of the floor started (m).
     pub perturbation: f64,
     pub face_count: usize,
@@ -69,7 +72,7 @@ impl FrameFigures {
 
 impl Subject {
     pub fn judged_frames(&self) -> impl Iterator<Item = &FrameFigures> {
-        self.frames.iter().filter(|f| !f.judged.is_chaos())
+        self.frames.iter().filter(|f| !f.judged.is_chaos)
     }
 
     /// Mean of a metric over the frames that are judged; `None` if none has it.
@@ -106,7 +109,7 @@ impl Study {
                 let mut row = vec![
                     subject.name.clone(),
                     figures.frame.to_string(),
-                    (!figures.judged.is_chaos()).to_string(),
+                    (!figures.judged.is_chaos).to_string(),
                 ];
                 row.extend(COLUMNS.map(|m| number(figures.value(m))));
                 row.push(number(figures.floor_rms_px()));
@@ -122,6 +125,7 @@ impl Study {
             edge_length_mean,
             steps_per_frame,
             newton_iterations,
+            unconverged_steps,
             perturbation,
             face_count,
             cpu_seconds,
@@ -133,6 +137,7 @@ impl Study {
                 "edge_length_mean": edge_length_mean,
                 "steps_per_frame": steps_per_frame,
                 "newton_iterations": newton_iterations,
+                "unconverged_steps": unconverged_steps,
                 "perturbation": perturbation,
                 "faces": face_count,
                 "cpu_s_per_frame": cpu_seconds,
@@ -142,7 +147,7 @@ impl Study {
         serde_json::to_string_pretty(&value).expect("a study is plain data") + "\n"
     }
 
-    /// A line a subject: cost, and means over the frames that are judged.
+    /// A line a subject: cost, and means over the frames that are judged; the reference last.
     pub fn table(&self) -> String {
         let shown = [
             Metric::RmsPx,
@@ -170,6 +175,13 @@ impl Study {
             }
             lines.push(line);
         }
+        let Reference { face_count, cpu_seconds, unconverged_steps, .. } = &self.reference;
+        lines.push(format!(
+            "{:10} {:>9} {face_count:>9} {:>9} {unconverged_steps:>14} unconverged steps",
+            "reference",
+            "",
+            short(*cpu_seconds)
+        ));
         lines.join("\n")
     }
 }
@@ -182,7 +194,7 @@ fn subject_json(subject: &Subject) -> Value {
     let frame = |figures: &FrameFigures| {
         let mut entry = Map::new();
         entry.insert("frame".into(), json!(figures.frame));
-        entry.insert("judged".into(), json!(!figures.judged.is_chaos()));
+        entry.insert("judged".into(), json!(!figures.judged.is_chaos));
         for metric in COLUMNS {
             entry.insert(metric.name().into(), json!(figures.value(metric)));
         }

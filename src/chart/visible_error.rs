@@ -103,7 +103,7 @@ impl Study {
             let style = FLOOR.stroke_width(2);
             chart
                 .draw_series(DashedLineSeries::new(floor, 5, 4, style))?
-                .label("floor: two references 1e-6 m apart")
+                .label(format!("floor: two references {:e} m apart", self.reference.perturbation))
                 .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
         }
         for (subject, colour) in self.subjects.iter().zip(COLOURS) {
@@ -187,7 +187,7 @@ fn stretches(subject: &Subject, metric: Metric) -> Vec<(Vec<(f64, f64)>, bool)> 
     let mut all: Vec<(Vec<(f64, f64)>, bool)> = Vec::new();
     for figures in &subject.frames {
         let Some(value) = figures.value(metric) else { continue };
-        let (place, is_judged) = (point(figures.frame, value), !figures.judged.is_chaos());
+        let (place, is_judged) = (point(figures.frame, value), !figures.judged.is_chaos);
         match all.last_mut() {
             Some((points, judged)) if *judged == is_judged => points.push(place),
             last => {
@@ -244,7 +244,8 @@ mod tests {
             displacement: Spread { rms, p95: 2.0 * rms, largest: 3.0 * rms },
             ..VisibleError::default()
         };
-        let judged = Judged { error: error(rms), floor: Some(error(floor)) };
+        let is_chaos = floor > 0.25 * rms;
+        let judged = Judged { error: error(rms), floor: Some(error(floor)), is_chaos };
         FrameFigures { frame, judged, flip: None }
     }
 
@@ -255,6 +256,7 @@ mod tests {
             steps_per_frame: 16,
             newton_iterations: 50,
             perturbation: 1e-6,
+            unconverged_steps: 0,
             face_count: 1000,
             cpu_seconds: 1.0,
         };
@@ -263,19 +265,27 @@ mod tests {
     }
 
     #[test]
-    fn lines_break_where_chaos_begins_and_ends_but_leave_no_gap() {
+    fn lines_break_where_chaos_begins_but_leave_no_gap() {
         let frames = vec![
             figures(1, 1.0, 0.1),
             figures(2, 2.0, 0.1),
             figures(3, 1.0, 0.9),
-            figures(4, 1.0, 0.1),
+            figures(4, 1.0, 0.9),
         ];
         let study = study(frames);
         let parts = stretches(&study.subjects[0], Metric::RmsPx);
         let judged: Vec<bool> = parts.iter().map(|p| p.1).collect();
-        assert_eq!(judged, [true, false, true]);
+        assert_eq!(judged, [true, false]);
         assert!(parts.windows(2).all(|w| w[0].0.last() == w[1].0.first()));
-        assert_eq!(study.subjects[0].mean(Metric::RmsPx), Some(4.0 / 3.0));
+        assert_eq!(study.subjects[0].mean(Metric::RmsPx), Some(1.5));
+    }
+
+    #[test]
+    fn the_legend_says_how_far_apart_the_references_start() {
+        let mut study = study(vec![figures(0, 1.0, 0.1)]);
+        study.reference.perturbation = 2e-5;
+        let svg = study.error_svg().unwrap();
+        assert!(svg.contains("two references 2e-5 m apart"), "{svg}");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! `shotsilk chart`: suites of measurements, as tables and files.
 
+mod bending;
 mod visible_error;
 
 use std::path::PathBuf;
@@ -52,21 +53,51 @@ enum Suite {
     VisibleError,
 }
 
+impl ChartArgs {
+    /// An argument that was given but means nothing to the suite.
+    fn meaningless(&self) -> Option<&'static str> {
+        let Self { shot, suite, out: _, only, shaded, adapter: _ } = self;
+        let ShotArgs { shot, camera, sets, fps, frames, sizing, edge_length, threads: _ } = shot;
+        let of_shots = [
+            (shot.is_some(), "a shot"),
+            (camera.is_some(), "--camera"),
+            (!sets.is_empty(), "--set"),
+            (fps.is_some(), "--fps"),
+            (frames.is_some(), "--frames"),
+            (sizing.is_some(), "--sizing"),
+            (edge_length.is_some(), "--edge-length"),
+            (*shaded, "--shaded"),
+        ];
+        // It chooses these itself.
+        let of_visible_error =
+            [(sizing.is_some(), "--sizing"), (edge_length.is_some(), "--edge-length")];
+        let only = (only.is_some(), "--only");
+        let given: Vec<(bool, &'static str)> = match suite {
+            Suite::Validation => of_shots.to_vec(),
+            Suite::Bending => of_shots.into_iter().chain([only]).collect(),
+            Suite::VisibleError => of_visible_error.into_iter().chain([only]).collect(),
+        };
+        given.into_iter().find_map(|(is_given, name)| is_given.then_some(name))
+    }
+}
+
 /// # Errors
-/// If the output cannot be written, a row is off, or the user asks to stop.
+/// If an argument has no meaning, the output cannot be written, a row is off, or the user asks to stop.
 pub fn run(args: &ChartArgs, log: LogArgs) -> Result<()> {
+    if let Some(name) = args.meaningless() {
+        let suite = args.suite.to_possible_value();
+        let suite = suite.as_ref().map_or("", |value| value.get_name());
+        return Err(Failure::Usage(format!("the suite {suite} has no use for {name}")).into());
+    }
     super::shot::set_threads(args.shot.threads)?;
     match args.suite {
         Suite::Validation => validation(args),
-        Suite::Bending => super::bending_chart::run(&args.out),
+        Suite::Bending => bending::run(&args.out),
         Suite::VisibleError => visible_error(args, log),
     }
 }
 
 fn visible_error(args: &ChartArgs, log: LogArgs) -> Result<()> {
-    if args.only.is_some() {
-        return Err(Failure::Usage("--only chooses rows of the suite validation".into()).into());
-    }
     let gpu = args.shaded.then(|| Headless::new(&args.adapter)).transpose();
     let gpu = gpu.map_err(Failure::from)?;
     visible_error::run(visible_error::Suite { shot: &args.shot, out: &args.out, gpu }, log)

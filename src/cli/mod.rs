@@ -1,7 +1,6 @@
 //! The command line, one subcommand a file.
 
 mod args;
-mod bending_chart;
 mod chart;
 mod compare;
 mod failure;

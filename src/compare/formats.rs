@@ -13,6 +13,7 @@ impl Comparison {
         rows.extend(self.items.iter().map(|item| self.row(item, &metrics)));
         let largest = metrics.iter().map(|&m| cell(self.largest(m)));
         let failed = match self.failed().count() {
+            0 if !self.is_judged() => NOTHING_JUDGED.to_owned(),
             0 => String::new(),
             count => format!("{count} of {} failed", self.items.len()),
         };
@@ -71,7 +72,7 @@ impl Comparison {
             "kind": self.kind.name(),
             "a": self.a,
             "b": self.b,
-            "passed": self.failed().next().is_none(),
+            "passed": self.has_passed(),
             "tolerance": self.tolerance,
             "largest": largest,
             "items": self.items.iter().map(|item| self.item_json(item)).collect::<Vec<_>>(),
@@ -105,12 +106,14 @@ impl Comparison {
     /// A test case an item, as continuous integration reads it.
     pub fn junit(&self) -> String {
         let skipped = self.items.iter().filter(|i| self.verdict(i) == Verdict::NotJudged).count();
+        // Where all is skipped, a case of its own fails.
+        let unjudged = usize::from(!self.is_judged());
         let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
         text += &format!(
             "<testsuites>\n  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{skipped}\" errors=\"0\">\n",
             escaped(&format!("{} against {}", self.b, self.a)),
-            self.items.len(),
-            self.failed().count(),
+            self.items.len() + unjudged,
+            self.failed().count() + unjudged,
         );
         for item in &self.items {
             let name = escaped(&format!("{} {}", self.kind.item_name(), item.name));
@@ -128,9 +131,17 @@ impl Comparison {
                 }
             };
         }
+        if unjudged > 0 {
+            text += &format!(
+                "    <testcase classname=\"shotsilk.compare\" name=\"judged\"><failure message=\"{NOTHING_JUDGED}\"/></testcase>\n"
+            );
+        }
         text + "  </testsuite>\n</testsuites>\n"
     }
 }
+
+/// Of a comparison that is neither passed nor exceeds a limit.
+const NOTHING_JUDGED: &str = "nothing was judged";
 
 fn listed(all: &[super::report::Excess]) -> String {
     all.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
@@ -239,5 +250,17 @@ mod tests {
         assert!(xml.contains("tests=\"4\" failures=\"2\" skipped=\"1\""), "{xml}");
         assert!(xml.contains("&lt;new&gt; &amp; &quot;odd&quot; against ref"), "{xml}");
         assert_eq!(xml.matches("<failure").count(), 2);
+    }
+
+    #[test]
+    fn where_all_is_chaos_every_form_says_that_nothing_was_judged() {
+        let mut comparison = comparison();
+        comparison.items.retain(|item| item.is_chaos);
+        assert!(comparison.table().ends_with("nothing was judged"), "{}", comparison.table());
+        let json: Json = serde_json::from_str(&comparison.json()).unwrap();
+        assert_eq!(json["passed"], json!(false));
+        let xml = comparison.junit();
+        assert!(xml.contains("tests=\"2\" failures=\"1\" skipped=\"1\""), "{xml}");
+        assert_eq!(xml.matches("<failure").count(), 1);
     }
 }

@@ -3,6 +3,7 @@
 
 mod flip;
 mod formats;
+mod judge;
 mod metric;
 mod picture;
 mod report;
@@ -11,9 +12,10 @@ mod shade;
 mod tolerance;
 
 pub use flip::FlipMap;
+pub use judge::{Judge, Judged};
 pub use metric::{Metric, Value, visible_error_values};
 pub use picture::{PictureDifference, side_by_side};
 pub use report::{Comparison, Excess, Fault, Item, Kind, Verdict, short};
-pub use runs::{Judged, RunPair, RunsError, common_frames};
+pub use runs::{RunPair, RunsError, frames_of_either};
 pub use shade::error_page;
 pub use tolerance::{Tolerance, ToleranceError};

@@ -112,17 +112,32 @@ impl Item {
         if self.is_chaos {
             return Verdict::NotJudged;
         }
-        let excess = |&(metric, value): &Value| {
-            let limit = tolerance?.limit(metric)?;
-            let is_above = value.is_none_or(|value| !(value <= limit));
-            is_above.then_some(Excess { metric, value, limit })
-        };
-        let exceeded: Vec<Excess> = self.values.iter().filter_map(excess).collect();
+        let exceeded = tolerance.map_or(Vec::new(), |tolerance| exceeded(&self.values, tolerance));
         if exceeded.is_empty() { Verdict::Within } else { Verdict::Exceeded(exceeded) }
     }
 }
 
+/// The values that are above their limits, or are no numbers.
+pub fn exceeded(values: &[Value], tolerance: &Tolerance) -> Vec<Excess> {
+    let excess = |&(metric, value): &Value| {
+        let limit = tolerance.limit(metric)?;
+        let is_above = value.is_none_or(|value| !(value <= limit));
+        is_above.then_some(Excess { metric, value, limit })
+    };
+    values.iter().filter_map(excess).collect()
+}
+
 impl Comparison {
+    /// False if there is nothing but chaos: a check that says nothing has not been passed.
+    pub fn is_judged(&self) -> bool {
+        self.items.iter().any(|item| !item.is_chaos)
+    }
+
+    /// True if something was judged and nothing failed.
+    pub fn has_passed(&self) -> bool {
+        self.is_judged() && self.failed().next().is_none()
+    }
+
     pub fn verdict(&self, item: &Item) -> Verdict {
         item.verdict(self.tolerance.as_ref())
     }
@@ -188,6 +203,23 @@ mod tests {
         assert_eq!(chaotic.verdict(Some(&limit(1.0))), Verdict::NotJudged);
         let missing = Item { fault: Some(Fault::OnlyInA), ..Item::default() };
         assert_eq!(missing.verdict(None), Verdict::Faulty(Fault::OnlyInA));
+    }
+
+    #[test]
+    fn chaos_alone_does_not_pass() {
+        let chaotic = Item { is_chaos: true, ..item(Some(0.1)) };
+        let mut comparison = Comparison {
+            a: "a".into(),
+            b: "b".into(),
+            kind: Kind::Runs,
+            tolerance: Some(limit(1.0)),
+            items: vec![chaotic.clone(), chaotic],
+        };
+        assert!(!comparison.is_judged() && !comparison.has_passed());
+        comparison.items.push(item(Some(0.5)));
+        assert!(comparison.has_passed());
+        comparison.items.push(item(Some(1.5)));
+        assert!(!comparison.has_passed());
     }
 
     #[test]

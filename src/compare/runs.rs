@@ -1,10 +1,12 @@
 //! Two runs of one shot, frame by frame.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use thiserror::Error;
 
-use crate::resample::{ClothMap, ClothMismatch, Measured, Pair, Shown, VisibleError};
+use super::report::Fault;
+use crate::resample::{ClothMap, ClothMismatch, Measured, Pair, Shown};
 use crate::run::{RunError, RunReader};
 use crate::scene::{LoadError, Surface, recorded_viewers};
 use crate::shot::{CameraPath, View};
@@ -143,23 +145,13 @@ fn name(run: &RunReader) -> String {
     run.dir().display().to_string()
 }
 
-/// The frames that all runs hold, in order.
-pub fn common_frames(runs: &[&RunReader]) -> Vec<u32> {
-    let Some((first, others)) = runs.split_first() else { return Vec::new() };
-    let in_all = |frame: &u32| others.iter().all(|run| run.frames().binary_search(frame).is_ok());
-    first.frames().iter().copied().filter(in_all).collect()
-}
-
-/// An error with its floor, the error between two references that start a hair apart.
-#[derive(Clone, Copy, Debug)]
-pub struct Judged {
-    pub error: VisibleError,
-    pub floor: Option<VisibleError>,
-}
-
-impl Judged {
-    /// True if the floor says that chaos may have made the difference.
-    pub fn is_chaos(&self) -> bool {
-        self.floor.is_some_and(|floor| !self.error.is_judged(&floor))
+/// The frames that either run holds, in order, with what keeps one from being compared.
+pub fn frames_of_either(a: &RunReader, b: &RunReader) -> BTreeMap<u32, Option<Fault>> {
+    let mut frames: BTreeMap<u32, Option<Fault>> =
+        a.frames().iter().map(|&number| (number, Some(Fault::OnlyInA))).collect();
+    for &number in b.frames() {
+        let fault = if frames.contains_key(&number) { None } else { Some(Fault::OnlyInB) };
+        frames.insert(number, fault);
     }
+    frames
 }

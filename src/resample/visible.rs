@@ -36,8 +36,8 @@ pub struct VisibleError {
 /// A shift that is seen (px).
 pub const VISIBLE_SHIFT_PX: f64 = 1.0;
 
-/// A frame is judged only while its floor, the error between two reference runs that start a hair
-/// apart, is at most this share of its error: beyond, chaos decides where folds fall.
+/// Frames are judged only until a floor, the error between two reference runs that start a hair
+/// apart, is above this share of the error: from there on chaos decides where folds fall.
 pub const FLOOR_SHARE_MAX: f64 = 0.25;
 
 /// The error of a frame, and where on the picture it is.
@@ -95,9 +95,10 @@ impl Shown<'_> {
 
 impl VisibleError {
     /// Whether this error means more than chaos does; `floor` is the same measure between two
-    /// reference runs that start a hair apart.
+    /// reference runs that start a hair apart. One that is no number is judged, too.
     pub fn is_judged(&self, floor: &VisibleError) -> bool {
-        floor.displacement.rms <= FLOOR_SHARE_MAX * self.displacement.rms
+        let is_too_high = floor.displacement.rms > FLOOR_SHARE_MAX * self.displacement.rms;
+        !is_too_high
     }
 }
 

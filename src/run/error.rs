@@ -24,6 +24,11 @@ pub enum RunError {
     InfoFormat { path: PathBuf, found: u64 },
     #[error("\"{}\" is not a run folder: it has no readable run.json", path.display())]
     NotARun { path: PathBuf },
+    #[error(
+        "the run.json of \"{}\" is damaged: the run can only be replaced, with --overwrite",
+        path.display()
+    )]
+    Broken { path: PathBuf },
     #[error("\"{}\" is not empty and not a run folder: choose another folder", path.display())]
     Occupied { path: PathBuf },
     #[error(

@@ -42,6 +42,9 @@ pub struct RunInfo {
     pub settings: Value,
 }
 
+/// How the file begins.
+const OPENING: &[u8] = b"{\n  \"shotsilk_run\":";
+
 /// The part that every version has.
 #[derive(Deserialize)]
 struct Version {
@@ -70,6 +73,19 @@ impl RunInfo {
 
     /// True if the file is the `run.json` of any version.
     pub(super) fn is_at(path: &Path) -> bool {
-        fs::read(path).is_ok_and(|text| serde_json::from_slice::<Version>(&text).is_ok())
+        // A struct is read from an array as well, which is none of ours.
+        let is_ours = |value: Value| value.get("shotsilk_run").is_some_and(Value::is_u64);
+        fs::read(path).is_ok_and(|text| serde_json::from_slice(&text).is_ok_and(is_ours))
+    }
+
+    /// True if the file is what a failing disk or power makes of a `run.json`: empty, zeros, or only
+    /// a part of one. What anyone else may have written is not.
+    pub(super) fn is_broken_at(path: &Path) -> bool {
+        fs::read(path).is_ok_and(|text| {
+            let is_empty = text.iter().all(|&byte| byte == 0);
+            let is_part =
+                text.starts_with(OPENING) && serde_json::from_slice::<Value>(&text).is_err();
+            is_empty || is_part
+        })
     }
 }

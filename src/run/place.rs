@@ -1,6 +1,7 @@
 //! Where things are in a run folder, and how a file gets there.
 
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::lock::Lock;
@@ -75,7 +76,7 @@ impl Place {
     }
 
     fn check_free(&self, overwrite: bool) -> Result<(), RunError> {
-        if RunInfo::is_at(&self.info()) {
+        if RunInfo::is_at(&self.info()) || self.is_broken()? {
             let path = self.dir.clone();
             return if overwrite { Ok(()) } else { Err(RunError::AlreadyARun { path }) };
         }
@@ -91,14 +92,22 @@ impl Place {
     /// is in place.
     pub fn is_begun(&self) -> Result<bool, RunError> {
         let names = names_in(&self.dir)?;
-        let files = [self.stats(), self.obstacles(), self.frames(), self.objs()];
-        let is_ours = |name: &String| {
-            let path = self.dir.join(without_partial(name));
-            path == self.lock() || files.contains(&path) || self.is_pending_info(name)
-        };
         let is_marked =
             |name: &String| self.is_pending_info(name) || self.dir.join(name) == self.lock();
-        Ok(names.iter().any(is_marked) && names.iter().all(is_ours))
+        Ok(names.iter().any(is_marked) && names.iter().all(|name| self.is_ours(name)))
+    }
+
+    /// True if the folder holds a run whose `run.json` has lost what it said.
+    pub fn is_broken(&self) -> Result<bool, RunError> {
+        let info = self.info();
+        let is_ours = |name: &String| self.dir.join(name) == info || self.is_ours(name);
+        Ok(RunInfo::is_broken_at(&info) && names_in(&self.dir)?.iter().all(is_ours))
+    }
+
+    /// True of the names that a run has besides `run.json`.
+    fn is_ours(&self, name: &str) -> bool {
+        let files = [self.lock(), self.stats(), self.obstacles(), self.frames(), self.objs()];
+        files.contains(&self.dir.join(without_partial(name))) || self.is_pending_info(name)
     }
 
     fn is_pending_info(&self, name: &str) -> bool {
@@ -152,12 +161,26 @@ impl Place {
     }
 }
 
-/// Writes a file under a temporary name and renames it.
+/// Writes a file under a temporary name and renames it. A power cut may still take what is in it: it
+/// has to be sealed, or not be missed.
 pub(super) fn write_whole(path: &Path, contents: &[u8]) -> Result<(), RunError> {
     let partial = partial(path);
     fs::write(&partial, contents)
         .and_then(|()| fs::rename(&partial, path))
         .map_err(RunError::io("write", path))
+}
+
+/// The same for a file without which the others are of no use: it outlasts a power cut once it has
+/// its name.
+pub(super) fn write_whole_to_disk(path: &Path, contents: &[u8]) -> Result<(), RunError> {
+    let partial = partial(path);
+    let write = || -> std::io::Result<()> {
+        let mut file = fs::File::create(&partial)?;
+        file.write_all(contents)?;
+        file.sync_all()?;
+        fs::rename(&partial, path)
+    };
+    write().map_err(RunError::io("write", path))
 }
 
 /// The temporary name of a file.

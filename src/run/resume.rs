@@ -39,7 +39,7 @@ impl RunWriter {
     /// the statistics and OBJ files of the frames that stay are written again.
     ///
     /// # Errors
-    /// If the folder holds no run, that of other input or another version of the program, one that
+    /// If the folder holds no run, one that has lost its `run.json`, that of other input or another version of the program, one that
     /// has only later frames of those wanted, or one that another program is writing.
     pub fn resume(
         dir: &Path,
@@ -55,6 +55,9 @@ impl RunWriter {
         if place.is_begun()? {
             let writer = Self::create(dir, info, obstacles, options)?;
             return Ok(ResumedRun { writer, remainder: Remainder::All, warnings: Vec::new() });
+        }
+        if place.is_broken()? {
+            return Err(RunError::Broken { path: place.dir });
         }
         if !RunInfo::is_at(&place.info()) {
             return Err(RunError::NotARun { path: place.dir });

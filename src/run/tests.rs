@@ -22,7 +22,7 @@ fn info() -> RunInfo {
     let settings = json!({"fps": 25.0, "viewers": [{"name": "close-up"}]});
     RunInfo {
         shotsilk_run: RUN_FORMAT,
-        program_version: "0.1.0".into(),
+        program_version: env!("CARGO_PKG_VERSION").into(),
         shot: "solo".into(),
         sizing_mode: "view".into(),
         fps: 25.0,

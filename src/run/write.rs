@@ -8,7 +8,7 @@ use cpu_time::ProcessTime;
 
 use super::lock::Lock;
 use super::obj::{cloth_obj, obstacle_obj};
-use super::place::{Place, write_whole};
+use super::place::{Place, write_whole, write_whole_to_disk};
 use super::sealed::{FRAME, Kind, OBSTACLES, seal};
 use super::state::{frame_bytes, obstacle_bytes};
 use super::stats::StatsFile;
@@ -53,7 +53,7 @@ impl RunWriter {
     ) -> Result<Self, RunError> {
         let place = Place { dir: dir.to_owned() };
         let lock = place.claim(options.overwrite)?;
-        write_whole(&place.info(), &info.to_json())?;
+        write_whole_to_disk(&place.info(), &info.to_json())?;
         make_folders(&place, options)?;
         write_obstacles(&place, obstacles)?;
         let stats = StatsFile::create(&place.stats())?;

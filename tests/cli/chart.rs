@@ -55,6 +55,10 @@ fn a_shot_is_charted_against_a_reference_run_and_finished_runs_are_used_again() 
     let study: serde_json::Value = serde_json::from_str(&files[1]).unwrap();
     let reference = &study["reference"];
     assert_eq!(reference["steps_per_frame"], 16);
+    let unconverged = reference["unconverged_steps"].as_u64().unwrap();
+    let shown = format!("{unconverged} unconverged steps");
+    assert!(outcome.stdout.contains(&shown), "{}", outcome.stdout);
+    assert_eq!(outcome.stderr.contains("used up their 50 Newton"), unconverged > 0);
     let (wanted, mean) = (&reference["edge_length_wanted"], &reference["edge_length_mean"]);
     let ratio = mean.as_f64().unwrap() / wanted.as_f64().unwrap();
     assert!((ratio.ln()).abs() < 0.4, "{wanted} {mean}");
@@ -72,10 +76,15 @@ fn a_suite_takes_only_the_arguments_that_mean_something_to_it() {
     let shot = SmallShot::new();
     let before = shot.names("");
     for (arguments, part) in [
-        ("--suite visible-error --sizing view", "--sizing"),
-        ("--suite visible-error --only a", "--only"),
+        ("shot.json --suite visible-error --sizing view", "visible-error has no use for --sizing"),
+        ("shot.json --suite visible-error --only a", "--only"),
+        ("shot.json --suite validation", "validation has no use for a shot"),
+        ("--suite validation --frames 3", "--frames"),
+        ("--suite validation --set fps=25", "--set"),
+        ("--suite bending --only a", "bending has no use for --only"),
+        ("--suite bending --shaded", "--shaded"),
     ] {
-        shot.run(&format!("chart shot.json --out a {arguments}")).fails(2, &[part]);
+        shot.run(&format!("chart --out a {arguments}")).fails(2, &[part]);
         assert_eq!(shot.names(""), before);
     }
 }

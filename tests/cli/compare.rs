@@ -70,10 +70,74 @@ fn a_floor_as_high_as_the_error_is_chaos() {
     let shot = two_runs();
     shot.write("strict.json", r#"{"rms_px": 0.001}"#);
     let line = "compare fine coarse --floor coarse --tolerance strict.json --frames 2..4 --json -";
-    let all = json(&shot.run(line).succeeds().stdout);
+    let outcome = shot.run(line);
+    assert_eq!(outcome.code, Some(6), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("nothing was judged"), "{}", outcome.stderr);
+    let all = json(&outcome.stdout);
+    assert_eq!(all["passed"], Value::Bool(false));
     assert!(all["items"].as_array().unwrap().iter().all(|i| i["judged"] == Value::Bool(false)));
     let line = "compare fine coarse --floor fine --tolerance strict.json --frames 2..4";
-    assert_eq!(shot.run(line).code, Some(6));
+    let outcome = shot.run(line);
+    assert_eq!(outcome.code, Some(6));
+    assert!(
+        outcome.stderr.contains("differs from \"fine\" in 3 of 3 frames"),
+        "{}",
+        outcome.stderr
+    );
+}
+
+#[test]
+fn a_run_that_is_within_passes_whatever_its_floor() {
+    let shot = two_runs();
+    shot.write("strict.json", r#"{"rms_px": 0.001}"#);
+    for tolerance in ["", "--tolerance strict.json"] {
+        let line = format!("compare fine fine --floor coarse --json - {tolerance}");
+        let all = json(&shot.run(&line).succeeds().stdout);
+        assert!(all["items"].as_array().unwrap().iter().all(|i| i["judged"] == Value::Bool(true)));
+    }
+}
+
+#[test]
+fn a_frame_that_only_one_run_has_is_a_difference() {
+    let shot = two_runs();
+    shot.run("simulate shot.json --sizing uniform --edge-length 0.1 --frames 2 --out short")
+        .succeeds();
+    shot.run("compare fine short --frames 1..2").succeeds();
+    for (line, fault, count) in [
+        ("compare fine short", "only in A", "2 of 5"),
+        ("compare short fine", "only in B", "2 of 5"),
+        ("compare fine short --frames 2..3", "only in A", "1 of 2"),
+        ("compare fine short --frames 3..4", "only in A", "2 of 2"),
+    ] {
+        let outcome = shot.run(line);
+        assert_eq!(outcome.code, Some(6), "{}", outcome.stderr);
+        assert!(outcome.stdout.contains(fault), "{}", outcome.stdout);
+        assert!(outcome.stderr.contains(&format!("{count} frames")), "{}", outcome.stderr);
+    }
+    fs::remove_file(shot.path("short/frames/000001.sfr")).unwrap();
+    let outcome = shot.run("compare fine short --frames 0..2");
+    assert_eq!(outcome.code, Some(6), "a gap within the range: {}", outcome.stderr);
+    shot.run("compare short short --frames 0..2").fails(3, &["no frame 1"]);
+}
+
+#[test]
+fn frames_that_the_floor_lacks_are_judged_until_chaos_comes() {
+    let shot = two_runs();
+    shot.write("strict.json", r#"{"rms_px": 0.001}"#);
+    shot.run("simulate shot.json --sizing uniform --edge-length 0.4 --frames 2 --out short")
+        .succeeds();
+    let judged = |frames: &str| -> Vec<bool> {
+        let line = format!(
+            "compare fine coarse --floor short --tolerance strict.json --frames {frames} --json -"
+        );
+        let outcome = shot.run(&line);
+        assert_eq!(outcome.code, Some(6), "{}", outcome.stderr);
+        assert!(outcome.stderr.contains("they have no floor"), "{}", outcome.stderr);
+        let items = json(&outcome.stdout)["items"].as_array().unwrap().clone();
+        items.iter().map(|item| item["judged"].as_bool().unwrap()).collect()
+    };
+    assert_eq!(judged("3..4"), [true, true]);
+    assert_eq!(judged("2..4"), [false, false, false]);
 }
 
 #[test]
@@ -83,14 +147,14 @@ fn another_camera_is_said_and_other_cloth_or_time_is_refused() {
     shot.write("other.camera.json", &camera);
     let simulate = "simulate shot.json --sizing uniform --frames 1 --out";
     shot.run(&format!("{simulate} moved --camera other.camera.json")).succeeds();
-    let outcome = shot.run("compare fine moved").succeeds();
+    let outcome = shot.run("compare fine moved --frames 1").succeeds();
     assert!(outcome.stderr.contains("was made for another camera"), "{}", outcome.stderr);
 
     shot.run(&format!("{simulate} slow --fps 12")).succeeds();
     shot.run("compare fine slow").fails(3, &["\"slow\" has 12 frames a second, \"fine\" has 24"]);
     shot.run(&format!("{simulate} renamed --set garments.0.name=cape")).succeeds();
     shot.run("compare fine renamed").fails(3, &["cape", "not of one shot"]);
-    shot.run("compare fine coarse --frames 2..9").fails(3, &["no frame 9"]);
+    shot.run("compare fine coarse --frames 2..9").fails(3, &["no frame 5"]);
 }
 
 #[test]

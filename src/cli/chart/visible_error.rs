@@ -17,7 +17,7 @@ use super::super::output::{self, PendingFile, PendingFolder};
 use super::super::progress::{Progress, ProgressMode};
 use super::super::shot::Shot;
 use crate::chart::{EdgeLengths, FrameFigures, Reference, Study, Subject, uniform_edge_length};
-use crate::compare::{Judged, RunPair};
+use crate::compare::{Judge, RunPair, visible_error_values};
 use crate::render::Headless;
 use crate::resample::VisibleError;
 use crate::run::{Remainder, RunInfo, RunReader, RunWriter, WriteOptions};
@@ -29,7 +29,8 @@ const EDGE_PERCENTILE: f64 = 0.1;
 /// The reference takes this many times the scene's own steps.
 const STEP_FACTOR: u32 = 2;
 
-/// Enough for every step to end by its tolerance instead.
+/// Meant to be enough for every step to end by its tolerance instead; steps for which it was not are
+/// counted.
 const NEWTON_ITERATIONS: u32 = 50;
 
 /// How far the start of the second reference is moved (m).
@@ -65,10 +66,6 @@ struct Runs {
 /// # Errors
 /// If the shot is bad, a simulation fails, an output cannot be written, or the user asks to stop.
 pub fn run(suite: Suite<'_>, log: LogArgs) -> Result<()> {
-    if suite.shot.sizing.is_some() || suite.shot.edge_length.is_some() {
-        let why = "the suite chooses --sizing and --edge-length itself";
-        return Err(Failure::Usage(why.into()).into());
-    }
     let base = Shot::open(&with(suite.shot, Sizing::Adaptive, None, &[]))?;
     let _folder = PendingFolder::create(suite.out)?;
     let outputs = Outputs::create(suite.out)?;
@@ -143,11 +140,20 @@ fn runs(suite: &Suite<'_>, base: &Shot, interrupt: &Interrupt, log: LogArgs) -> 
     sets.push(format!("start_perturbation={PERTURBATION}"));
     let perturbed = simulated("perturbed", &with(suite.shot, Sizing::Uniform, Some(asked), &sets))?;
     let (cpu_seconds, face_count) = means(&reference, base.frames.last)?;
+    let unconverged_steps = unconverged_steps(&reference, base.frames.last)?
+        + unconverged_steps(&perturbed, base.frames.last)?;
+    if unconverged_steps > 0 {
+        tracing::warn!(
+            "{unconverged_steps} steps of the references used up their {NEWTON_ITERATIONS} Newton \
+             iterations: they are less exact than they are meant to be"
+        );
+    }
     let about = Reference {
         edge_length_wanted,
         edge_length_mean,
         steps_per_frame,
         newton_iterations: NEWTON_ITERATIONS,
+        unconverged_steps,
         perturbation: PERTURBATION,
         face_count: face_count.round() as usize,
         cpu_seconds,
@@ -226,6 +232,15 @@ fn means(run: &RunReader, last: u32) -> Result<(f64, f64)> {
     Ok((cpu_seconds / count.max(1.0), faces / count.max(1.0)))
 }
 
+/// Over the frames up to the last.
+fn unconverged_steps(run: &RunReader, last: u32) -> Result<u64> {
+    let mut count = 0;
+    for &number in run.frames().iter().filter(|&&number| number <= last) {
+        count += run.frame(number).map_err(Failure::from)?.report.counts.unconverged_steps;
+    }
+    Ok(count)
+}
+
 fn stop_if_asked(interrupt: &Interrupt) -> Result<()> {
     match interrupt.requested() {
         Some(signal) => Err(Failure::Interrupted(signal).into()),
@@ -256,6 +271,7 @@ fn figures(
     interrupt: &Interrupt,
 ) -> Result<Vec<FrameFigures>> {
     let mut pair = RunPair::new(reference, other, 1.0).map_err(Failure::from)?;
+    let mut judge = Judge::default();
     let mut all = Vec::new();
     for (&number, &floor) in frames.iter().zip(floors) {
         stop_if_asked(interrupt)?;
@@ -265,7 +281,8 @@ fn figures(
             _ => None,
         };
         let frame = i64::from(number) + reference.info().first_frame;
-        all.push(FrameFigures { frame, judged: Judged { error, floor: Some(floor) }, flip });
+        let judged = judge.judged(error, Some(floor), &visible_error_values(&error));
+        all.push(FrameFigures { frame, judged, flip });
     }
     Ok(all)
 }

@@ -55,8 +55,8 @@ struct RunsArgs {
     /// Frames of runs, both ends included, counted from 0; N means 0..N
     #[arg(long, value_name = "A..B", value_parser = parse_frames)]
     frames: Option<FrameRange>,
-    /// A run like A that starts a hair apart: frames where it is as far from A as a quarter of what
-    /// B is are chaos and not judged
+    /// A run like A that starts a hair apart: from the first frame on where B is off and it is more
+    /// than a quarter as far from A, all is chaos and not judged
     #[arg(long, value_name = "RUN")]
     floor: Option<PathBuf>,
     /// Pixels looked at for each of the shot's, in width and height
@@ -112,13 +112,25 @@ pub fn run(args: &CompareArgs, log: LogArgs) -> Result<()> {
     };
     outputs.write(&comparison, diff.as_ref())?;
     match comparison.failed().count() {
-        0 => Ok(()),
+        0 if comparison.has_passed() => Ok(()),
+        0 => Err(Failure::Check(nothing_judged(args)).into()),
         count => {
             let (name, total) = (comparison.kind.item_name(), comparison.items.len());
             let why = format!("{:?} differs from {:?}", comparison.b, comparison.a);
             Err(Failure::Check(format!("{why} in {count} of {total} {name}s")).into())
         }
     }
+}
+
+fn nothing_judged(args: &CompareArgs) -> String {
+    let floor = args.runs.floor.as_deref().unwrap_or(Path::new(""));
+    format!(
+        "nothing was judged: from the first frame on, {:?} is more than a quarter as far from {:?} \
+         as {:?} is",
+        floor.display(),
+        args.a.display(),
+        args.b.display()
+    )
 }
 
 /// True for two runs, false for two pictures or two folders of pictures.

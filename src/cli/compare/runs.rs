@@ -1,5 +1,7 @@
 //! Two runs, as the shot camera sees them.
 
+use std::collections::BTreeMap;
+
 use anyhow::{Context, Result};
 use image::RgbaImage;
 
@@ -9,11 +11,11 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::log::LogArgs;
 use crate::cli::progress::{Progress, ProgressMode};
 use crate::compare::{
-    Comparison, FlipMap, Item, Judged, Kind, Metric, RunPair, Tolerance, common_frames, error_page,
-    visible_error_values,
+    Comparison, Fault, FlipMap, Item, Judge, Judged, Kind, Metric, RunPair, Tolerance, Value,
+    error_page, frames_of_either, visible_error_values,
 };
 use crate::render::{ColourBy, Headless, PictureOptions};
-use crate::resample::ClothMap;
+use crate::resample::{ClothMap, VisibleError};
 use crate::run::RunReader;
 
 /// The comparison, and a page of the worst frame.
@@ -26,42 +28,41 @@ pub fn compare(
     let (a, b) = (open(&args.a)?, open(&args.b)?);
     let floor = args.runs.floor.as_deref().map(open).transpose()?;
     let mut pair = RunPair::new(&a, &b, args.runs.scale).map_err(Failure::from)?;
-    let mut floor_pair = floor
-        .as_ref()
-        .map(|f| RunPair::new(&a, f, args.runs.scale))
-        .transpose()
-        .map_err(Failure::from)?;
     warn_of_differences(&pair, &a, &b)?;
-    let frames = frames(&args.runs, &a, &b, floor.as_ref())?;
+    let frames = frames(&args.runs, &a, &b)?;
+    let mut floor =
+        floor.as_ref().map(|run| Floor::new(&a, run, &args.runs, &frames)).transpose()?;
     let is_shaded = args.runs.shaded || tolerance.is_some_and(|t| t.flip.is_some());
     let mut gpu =
         is_shaded.then(|| Headless::new(&args.runs.adapter)).transpose().map_err(Failure::from)?;
     let interrupt = Interrupt::install().context("cannot listen for signals")?;
     let mut progress = Progress::new(frames.len() as u64, ProgressMode::detect(log));
+    let mut judge = Judge::new(tolerance);
     let mut items = Vec::new();
     let mut worst: Option<(f64, u32)> = None;
-    for &number in &frames {
+    for (&number, &fault) in &frames {
         if let Some(signal) = interrupt.requested() {
             return Err(Failure::Interrupted(signal).into());
         }
-        let error = pair.measure(number).map_err(Failure::from)?.error;
-        let floor = match &mut floor_pair {
-            Some(pair) => Some(pair.measure(number).map_err(Failure::from)?.error),
-            None => None,
-        };
-        let judged = Judged { error, floor };
-        let mut item = item(judged, i64::from(number) + a.info().first_frame);
-        if let (Some(gpu), Some(maps)) = (&mut gpu, pair.last_maps()) {
-            item.values.push((Metric::Flip, Some(shaded_difference(gpu, &pair, maps, number)?)));
-            item.values.sort_by_key(|(metric, _)| *metric);
+        let name = (i64::from(number) + a.info().first_frame).to_string();
+        if fault.is_some() {
+            items.push(Item { name, fault, ..Item::default() });
+            continue;
         }
+        let error = pair.measure(number).map_err(Failure::from)?.error;
+        let floor = floor.as_mut().map(|floor| floor.error(number)).transpose()?.flatten();
+        let mut values = visible_error_values(&error);
+        if let (Some(gpu), Some(maps)) = (&mut gpu, pair.last_maps()) {
+            values.push((Metric::Flip, Some(shaded_difference(gpu, &pair, maps, number)?)));
+            values.sort_by_key(|(metric, _)| *metric);
+        }
+        items.push(item(name, judge.judged(error, floor, &values), values));
         if worst.is_none_or(|(most, _)| error.displacement.rms > most) {
             worst = Some((error.displacement.rms, number));
         }
         if let Some([reference, _]) = pair.last_maps() {
             progress.frame(reference.frame(), a.info().first_frame);
         }
-        items.push(item);
     }
     progress.finish();
     let [a, b] = [&args.a, &args.b].map(|path| path.display().to_string());
@@ -72,13 +73,45 @@ pub fn compare(
     Ok((Comparison { a, b, kind: Kind::Runs, tolerance, items }, page))
 }
 
-fn item(judged: Judged, shown: i64) -> Item {
-    Item {
-        name: shown.to_string(),
-        values: visible_error_values(&judged.error),
-        fault: None,
-        floor_rms_px: judged.floor.map(|floor| floor.displacement.rms),
-        is_chaos: judged.is_chaos(),
+fn item(name: String, judged: Judged, values: Vec<Value>) -> Item {
+    let Judged { floor, is_chaos, .. } = judged;
+    let floor_rms_px = floor.map(|floor| floor.displacement.rms);
+    Item { name, values, fault: None, floor_rms_px, is_chaos }
+}
+
+/// The reference and a run that started a hair apart.
+struct Floor<'a> {
+    pair: RunPair<'a>,
+    run: &'a RunReader,
+}
+
+impl<'a> Floor<'a> {
+    fn new(a: &'a RunReader, run: &'a RunReader, args: &RunsArgs, frames: &Frames) -> Result<Self> {
+        let pair = RunPair::new(a, run, args.scale).map_err(Failure::from)?;
+        let floor = Self { pair, run };
+        let is_missing =
+            |&(&number, fault): &(&u32, &Option<Fault>)| fault.is_none() && !floor.has(number);
+        let missing = frames.iter().filter(is_missing).count();
+        if missing > 0 {
+            let run = run.dir().display().to_string();
+            tracing::warn!(
+                "{run:?} lacks {missing} frames: they have no floor, and are judged unless chaos \
+                 comes before them"
+            );
+        }
+        Ok(floor)
+    }
+
+    fn has(&self, number: u32) -> bool {
+        self.run.frames().binary_search(&number).is_ok()
+    }
+
+    /// `None` at a frame that the run lacks.
+    fn error(&mut self, number: u32) -> Result<Option<VisibleError>> {
+        if !self.has(number) {
+            return Ok(None);
+        }
+        Ok(Some(self.pair.measure(number).map_err(Failure::from)?.error))
     }
 }
 
@@ -130,29 +163,21 @@ fn warn_of_differences(pair: &RunPair<'_>, a: &RunReader, b: &RunReader) -> Resu
     Ok(())
 }
 
-/// The frames asked for, which all runs must hold; without a wish those that they have in common.
-fn frames(
-    args: &RunsArgs,
-    a: &RunReader,
-    b: &RunReader,
-    floor: Option<&RunReader>,
-) -> Result<Vec<u32>> {
-    let runs: Vec<&RunReader> = [a, b].into_iter().chain(floor).collect();
-    let common = common_frames(&runs);
+/// The frames to look at, and what keeps one from being compared.
+type Frames = BTreeMap<u32, Option<Fault>>;
+
+/// The frames asked for, each of which a run must hold; without a wish those of either.
+fn frames(args: &RunsArgs, a: &RunReader, b: &RunReader) -> Result<Frames> {
+    let mut frames = frames_of_either(a, b);
     if let Some(range) = args.frames {
-        for run in runs {
-            for number in [range.first, range.last] {
-                run.frame(number).map_err(Failure::from)?;
+        for number in range.first..=range.last {
+            if !frames.contains_key(&number) {
+                a.frame(number).map_err(Failure::from)?;
             }
         }
-        return Ok(common.into_iter().filter(|&frame| range.contains(frame)).collect());
-    }
-    if common.is_empty() {
+        frames.retain(|&number, _| range.contains(number));
+    } else if frames.values().all(Option::is_some) {
         return Err(Failure::BadInput("the runs have no frame in common".into()).into());
     }
-    let left_out = runs.iter().map(|run| run.frames().len() - common.len()).max().unwrap_or(0);
-    if left_out > 0 {
-        tracing::warn!("{left_out} frames are not in all runs and are left out");
-    }
-    Ok(common)
+    Ok(frames)
 }

@@ -284,6 +284,44 @@ fn a_run_half_removed_for_another_is_none() {
     assert_same_run(&dir, &run(1));
 }
 
+/// What a power cut leaves of a file: nothing, zeros, or its beginning.
+fn broken(info: &[u8]) -> [Vec<u8>; 3] {
+    [Vec::new(), vec![0; info.len()], info[..info.len() / 2].to_vec()]
+}
+
+#[test]
+fn a_run_that_has_lost_its_run_json_is_replaced_on_request_only() {
+    let whole = run(1);
+    let whole_info = fs::read(whole.path().join("run.json")).unwrap();
+    for info in broken(&whole_info) {
+        let dir = run(3);
+        fs::write(dir.path().join("run.json"), &info).unwrap();
+        assert!(!RunReader::is_run(dir.path()));
+        let error = resume(dir.path(), 3).err().unwrap();
+        assert!(matches!(error, RunError::Broken { .. }), "{error}");
+        let error = write_run(dir.path(), 1, WriteOptions::default()).unwrap_err();
+        assert!(matches!(error, RunError::AlreadyARun { .. }), "{error}");
+        assert_eq!(names(&dir.path().join("frames")).len(), 3);
+        let overwrite = WriteOptions { overwrite: true, ..WriteOptions::default() };
+        write_run(dir.path(), 1, overwrite).unwrap();
+        assert_same_run(&dir, &whole);
+    }
+}
+
+#[test]
+fn a_run_json_of_someone_else_is_never_written_over() {
+    let overwrite = WriteOptions { overwrite: true, ..WriteOptions::default() };
+    for (name, text) in [("frames", "{ // mine\n}"), ("frames", "[1]"), ("notes.txt", "")] {
+        let dir = tempfile::tempdir().unwrap();
+        fs::write(dir.path().join("run.json"), text).unwrap();
+        fs::create_dir(dir.path().join(name)).unwrap();
+        let error = write_run(dir.path(), 1, overwrite).unwrap_err();
+        assert!(matches!(error, RunError::Occupied { .. }), "{error}");
+        assert_eq!(names(dir.path()), [name, "run.json"]);
+        assert_eq!(fs::read_to_string(dir.path().join("run.json")).unwrap(), text);
+    }
+}
+
 #[test]
 fn a_state_of_version_1_is_read_without_anchors() {
     let mut whole =

@@ -9,9 +9,9 @@ use cpu_time::ThreadTime;
 use rayon::prelude::*;
 use serde_json::json;
 
-use super::failure::Failure;
-use super::interrupt::Interrupt;
-use super::output::{self, PendingFile, PendingFolder};
+use super::super::failure::Failure;
+use super::super::interrupt::Interrupt;
+use super::super::output::{self, PendingFile, PendingFolder};
 use crate::chart::BendingCandidate;
 use crate::dynamics::{Accuracy, LinearSolver, StepForces};
 use crate::scene::{BendingModel, PRESETS, Preset, SolverChoice};
