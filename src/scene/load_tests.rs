@@ -129,6 +129,18 @@ fn a_deforming_obstacle_that_makes_no_sense_is_refused() {
     assert!(none.contains("a file with the first number"), "{none}");
     let missing = sequence(r#""pattern": "body.%04d.obj", "fps": 4, "first": 1, "last": 3"#);
     assert!(missing.contains("body.0003.obj"), "{missing}");
+    for (first, last, limit) in
+        [(1, 0, "from 1 (first) to 100000"), (2, 100_002, "from 2 (first) to 100001")]
+    {
+        let rest = format!(
+            "\"pattern\": \"body.%04d.obj\", \"fps\": 4, \"first\": {first}, \"last\": {last}"
+        );
+        let message = sequence(&rest);
+        let named = format!("mesh_sequence.last is {last}, but must be {limit}");
+        assert!(message.contains(&named), "{message}");
+    }
+    let wide = sequence(r#""pattern": "body.%99999d.obj", "fps": 4, "first": 1"#);
+    assert!(wide.contains("one %d"), "{wide}");
     let still = sequence(r#""pattern": "body.%04d.obj", "fps": 0"#);
     assert!(still.contains("fps"), "{still}");
     let both = message(r#"{"mesh": "meshes/ball.obj", "meshes": []}"#);

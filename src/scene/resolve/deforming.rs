@@ -54,8 +54,12 @@ impl Resolver<'_> {
     fn sequence(&self, path: &str, file: &MeshSequenceFile) -> Result<Vec<MeshKeyFile>, LoadError> {
         self.check(&format!("{path}.fps"), file.fps, Limit::Positive)?;
         self.check(&format!("{path}.start_time"), file.start_time, Limit::Finite)?;
-        let last =
-            file.last.unwrap_or(u32::MAX).min(file.first.saturating_add(SEQUENCE_LENGTH_MAX));
+        let last_max = file.first.saturating_add(SEQUENCE_LENGTH_MAX - 1);
+        let last = file.last.unwrap_or(last_max);
+        if last < file.first || last > last_max {
+            let limit = format!("from {} (first) to {last_max}", file.first);
+            return Err(self.out_of_range(&format!("{path}.last"), last, &limit));
+        }
         let mut meshes = Vec::new();
         for number in file.first..=last {
             let Some(mesh) = numbered(&file.pattern, number as usize) else { break };
