@@ -3,6 +3,8 @@
 //! With Gamma = rho g L^3 / D (rho per area) the drop H and the reach W of the tip follow from the
 //! elastica ([`RLBD21`](crate::papers::RLBD21)): D theta'' = -rho g (L - s) cos theta.
 
+use std::f64::consts::FRAC_PI_4;
+
 use glam::{DVec2, DVec3};
 
 use super::sheet::{Layout, Sheet};
@@ -21,30 +23,34 @@ pub(super) const LENGTH: f64 = 0.2;
 const DENSITY: f64 = 0.2;
 /// As thick as this a homogeneous sheet would have the membrane stiffness used (m).
 const THICKNESS: f64 = LENGTH / 100.0;
+/// As thick as cloth is taut: triangles that do not lie along the fold cannot bend without
+/// stretching.
+const TAUT: f64 = LENGTH / 1000.0;
 const CELLS_ACROSS: f64 = 8.0;
 const CELLS_ALONG: f64 = 64.0;
 
 const TOLERANCE: f64 = 0.02;
 
 pub fn experiments() -> Vec<Experiment> {
-    Layout::ALL.map(experiment).into()
+    let fixed = Layout::ALL.map(|layout| experiment(layout, THICKNESS, "fixed"));
+    let taut = [Layout::Aligned, Layout::Rotated(FRAC_PI_4)]
+        .map(|layout| experiment(layout, TAUT, "fixed-taut"));
+    fixed.into_iter().chain(taut).collect()
 }
 
-fn experiment(layout: Layout) -> Experiment {
+fn experiment(layout: Layout, thickness: f64, kind: &str) -> Experiment {
     let claim = |(gamma, ratio): (f64, f64)| {
-        Claim::relative(
-            format!("cantilever/gamma-{gamma}/{}/fixed", layout.name()),
-            ratio,
-            TOLERANCE,
-        )
+        let name = format!("cantilever/gamma-{gamma}/{}/{kind}", layout.name());
+        Claim::relative(name, ratio, TOLERANCE)
     };
-    Experiment::new(ELASTICA.map(claim).into(), move || drop_to_reach(layout, CELLS_ALONG))
+    Experiment::new(ELASTICA.map(claim).into(), move || drop_to_reach(layout, thickness))
 }
 
 /// H / W at each load of the table.
-fn drop_to_reach(layout: Layout, cells: f64) -> Result<Vec<f64>, ExperimentError> {
-    let mut strip = Specimen::new(strip(layout, LENGTH / cells), &fabric_for(GAMMA_NAMED));
-    let clamp = held(LENGTH / cells);
+fn drop_to_reach(layout: Layout, thickness: f64) -> Result<Vec<f64>, ExperimentError> {
+    let cell = LENGTH / CELLS_ALONG;
+    let mut strip = Specimen::new(strip(layout, cell), &fabric_of(GAMMA_NAMED, thickness));
+    let clamp = held(cell);
     strip.clamp(|u| u.x < clamp);
     let (ratios, _) = ratios(&mut strip, &loads(), gravity, rest)?;
     Ok(ratios)
@@ -74,8 +80,12 @@ const GAMMA_NAMED: f64 = 20.0;
 
 /// A fabric of which a strip has this Gamma under the earth's gravity.
 pub(super) fn fabric_for(gamma: f64) -> Fabric {
+    fabric_of(gamma, THICKNESS)
+}
+
+fn fabric_of(gamma: f64, thickness: f64) -> Fabric {
     let rigidity = DENSITY * GRAVITY * LENGTH.powi(3) / gamma;
-    fabric::plain(rigidity, fabric::homogeneous_stretching(rigidity, 0.0, THICKNESS), DENSITY)
+    fabric::plain(rigidity, fabric::homogeneous_stretching(rigidity, 0.0, thickness), DENSITY)
 }
 
 /// Gravity that brings the fabric of [`GAMMA_NAMED`] to another Gamma (m/s^2).
@@ -106,7 +116,7 @@ pub(super) fn strip(layout: Layout, cell: f64) -> Mesh {
         size: DVec2::new(LENGTH + 0.5 * cell, width),
         cell,
         layout,
-        columns: if 0.5 > 1.0 { vec![-0.5 * cell, 0.5 * cell] } else { vec![0.5 * cell] },
+        columns: vec![0.5 * cell],
     };
     sheet.mesh(|u| u.extend(0.0))
 }

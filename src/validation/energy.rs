@@ -9,7 +9,7 @@ const DT: f64 = 5e-3;
 
 /// A step linearised once may add energy while a crumpled sheet springs open: this share of all
 /// there is, at most.
-const LINEARISED_GAIN_MAX: f64 = 0.01;
+const LINEARISED_GAIN_MAX: f64 = 1e-6;
 
 /// What the tolerance of the iterations leaves open.
 const CONVERGED_GAIN_MAX: f64 = 1e-9;

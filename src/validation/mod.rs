@@ -9,6 +9,7 @@ mod buckling;
 mod cantilever;
 mod cantilever_remeshed;
 mod capstan;
+mod drape;
 mod energy;
 mod experiment;
 mod fabric;
@@ -20,6 +21,7 @@ mod momentum;
 mod order;
 mod patch;
 mod remesh_only;
+mod roll_up;
 pub mod sheet;
 pub mod specimen;
 mod stage;
@@ -36,8 +38,10 @@ pub fn experiments() -> Vec<Experiment> {
         hanging::experiments(),
         cantilever::experiments(),
         cantilever_remeshed::experiments(),
+        roll_up::experiments(),
         buckling::experiments(),
         wrinkles::experiments(),
+        drape::experiments(),
         incline::experiments(),
         stick_slip::experiments(),
         capstan::experiments(),

@@ -7,26 +7,37 @@ use glam::{DVec2, DVec3};
 use super::sheet::{Layout, Sheet};
 use super::specimen::Specimen;
 use super::{Claim, Experiment, ExperimentError, fabric};
-use crate::math::Random;
-use crate::mesh::{Collapse, Mesh, MeshEditor, NodeId};
+use crate::math::{Random, SymTensor2};
+use crate::mesh::{Collapse, IdVec, Mesh, MeshEditor, NodeId};
+use crate::remesh::{NoGuard, RemeshSettings, remesh};
 use crate::scene::Fabric;
 
 pub fn experiments() -> Vec<Experiment> {
     let claims = vec![
         Claim::absolute("remesh-only/mass", 0.0, 1e-12),
         Claim::absolute("remesh-only/momentum", 0.0, 1e-12),
-        Claim::absolute("remesh-only/bending-energy", 0.0, 1e-3),
+        Claim::absolute("remesh-only/bending-energy", 0.0, 1e-10),
     ];
-    vec![Experiment::new(claims, measure)]
+    let remeshed = vec![
+        Claim::absolute("remesh-only/refined-and-coarsened/mass", 0.0, 1e-12),
+        Claim::absolute("remesh-only/refined-and-coarsened/momentum", 0.0, 1e-3),
+        Claim::absolute("remesh-only/refined-and-coarsened/bending-energy", 0.0, 0.05),
+    ];
+    vec![
+        Experiment::new(claims, || changes(split_and_collapsed)),
+        Experiment::new(remeshed, || changes(|mesh| Ok(refined_and_coarsened(mesh)))),
+    ]
 }
 
 /// The relative changes of mass, momentum and bending energy of a quarter of a tube, as it flies
-/// and turns, after a third of its edges have been split and the new nodes collapsed again.
-fn measure() -> Result<Vec<f64>, ExperimentError> {
+/// and turns, by an edit.
+fn changes(
+    edit: impl Fn(Mesh) -> Result<Mesh, ExperimentError>,
+) -> Result<Vec<f64>, ExperimentError> {
     let fabric = fabric::plain(1e-4, 500.0, 0.2);
     let mesh = tube();
     let before = Specimen::new(mesh.clone(), &fabric);
-    let after = Specimen::new(split_and_collapsed(mesh)?, &fabric);
+    let after = Specimen::new(edit(mesh)?, &fabric);
     let bending = [&before, &after].map(|s| bending_energy(s, &fabric));
     let momentum = before.momentum();
     Ok(vec![
@@ -64,7 +75,21 @@ fn bending_energy(specimen: &Specimen, fabric: &Fabric) -> f64 {
     specimen.system.potential_energy(&specimen.state) - membrane
 }
 
-/// Every new node goes back to an end of the edge it came from.
+/// Remeshed to half as long edges, and to edges as long as the longest were.
+fn refined_and_coarsened(mesh: Mesh) -> Mesh {
+    let lengths = mesh.edges().map(|c| {
+        let [a, b] = mesh.edge_vertices(c).map(|v| mesh.material(v));
+        a.distance(b)
+    });
+    let longest = lengths.fold(0.0, f64::max);
+    [0.5 * longest, longest].into_iter().fold(mesh, |mut mesh, length| {
+        let metric = SymTensor2::isotropic((length * length).recip());
+        mesh.metric = IdVec::filled(metric, mesh.vertex_count());
+        remesh(mesh, &RemeshSettings::default(), &NoGuard).0
+    })
+}
+
+/// A third of the edges are split, and every new node goes back to an end of the edge it came from.
 fn split_and_collapsed(mesh: Mesh) -> Result<Mesh, ExperimentError> {
     let mut random = Random::new(5);
     let mut editor = MeshEditor::new(mesh);

@@ -138,9 +138,9 @@ impl Sheet {
 
     fn has_room(&self, u: DVec2) -> bool {
         let least = CLEARANCE * self.fitted_steps().min_element();
-        let start = self.columns.last().copied().unwrap_or(self.origin.x);
         let end = self.origin + self.size;
-        u.x > start + least
+        self.columns.iter().all(|column| (u.x - column).abs() > least)
+            && u.x > self.origin.x + least
             && u.x < end.x - least
             && u.y > self.origin.y + least
             && u.y < end.y - least

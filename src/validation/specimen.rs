@@ -38,6 +38,8 @@ const SHRINKAGE: f64 = 0.25;
 
 /// Longer steps are no longer Newton steps but the same (s).
 const STEP_MAX: f64 = 1e3;
+/// Shorter ones move nothing (s).
+const STEP_MIN: f64 = 1e-9;
 
 /// A way is cut or lengthened to its minimum between these shares of it, unless that is all of it but
 /// for little. Nearer minima are those of the membrane alone, which the next step relaxes anyway.
@@ -172,7 +174,7 @@ impl Specimen {
             self.state.position = start;
             // Without a memory at first, then with a shorter step.
             if last.take().is_none() {
-                dt *= SHRINKAGE;
+                dt = (dt * SHRINKAGE).max(STEP_MIN);
             }
         }
         Err(ExperimentError::NotAtRest { steps: rest.steps_max, residual, limit: rest.residual })
