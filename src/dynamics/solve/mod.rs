@@ -13,8 +13,6 @@ mod permuted;
 #[cfg(test)]
 mod tests;
 
-use std::mem;
-
 use glam::DVec3;
 use thiserror::Error;
 
@@ -179,14 +177,11 @@ impl LinearSolver {
             direct.solve(z);
         };
         let outcome = self.conjugate.solve(matrix, b, x, apply, budget);
-        self.counts.iterations += outcome.iterations();
-        match outcome {
-            Outcome::Converged { .. } => Ok(()),
-            _ => {
-                self.failures.outdated_factor += 1;
-                self.solve_directly(matrix, b, x)
-            }
+        if self.has_converged(outcome) {
+            return Ok(());
         }
+        self.failures.outdated_factor += 1;
+        self.solve_directly(matrix, b, x)
     }
 
     fn solve_with_incomplete_factor(
@@ -202,15 +197,17 @@ impl LinearSolver {
         let incomplete = &mut self.incomplete;
         let apply = |r: &[DVec3], z: &mut [DVec3]| incomplete.apply(r, z);
         let outcome = self.conjugate.solve(matrix, b, x, apply, budget);
-        self.counts.iterations += outcome.iterations();
-        match outcome {
-            Outcome::Converged { .. } => Ok(()),
-            _ => {
-                self.failures.incomplete += 1;
-                self.preconditioner = Preconditioner::Needed;
-                self.solve_directly(matrix, b, x)
-            }
+        if self.has_converged(outcome) {
+            return Ok(());
         }
+        self.failures.incomplete += 1;
+        self.solve_directly(matrix, b, x)
+    }
+
+    /// Counts the iterations of an outcome; true if it is a solution.
+    fn has_converged(&mut self, outcome: Outcome) -> bool {
+        self.counts.iterations += outcome.iterations();
+        matches!(outcome, Outcome::Converged { .. })
     }
 
     fn solve_directly(
@@ -219,21 +216,12 @@ impl LinearSolver {
         b: &[DVec3],
         x: &mut [DVec3],
     ) -> Result<(), SolveError> {
-        let before = mem::replace(&mut self.preconditioner, Preconditioner::Needed);
+        self.preconditioner = Preconditioner::Needed;
         self.counts.factorisations += 1;
-        if let Err(error) = self.direct.factorize(matrix) {
-            self.preconditioner = before.without_factor();
-            return Err(error);
-        }
+        self.direct.factorize(matrix)?;
         self.preconditioner = Preconditioner::Factor;
         x.copy_from_slice(b);
         self.direct.solve(x);
         Ok(())
-    }
-}
-
-impl Preconditioner {
-    fn without_factor(self) -> Self {
-        if self == Preconditioner::Factor { Preconditioner::Needed } else { self }
     }
 }
