@@ -1,13 +1,17 @@
 //! The next frame follows from any stored one, with the bits of a straight run, in shots that are
 //! more than a fixture. Small scenes with everything in them: `sim::tests::frame_to_frame`.
 
+#[path = "support/frame_bits.rs"]
+mod frame_bits;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use frame_bits::bits;
 use shotsilk::own_shot::own_shot;
 use shotsilk::run::{InputHasher, RUN_FORMAT, RunInfo, RunReader, RunWriter, WriteOptions};
 use shotsilk::scene::{FileSystem, LoadOptions, LoadedShot, load};
-use shotsilk::sim::{Frame, SimSettings, Simulation, SizingMode, StageSeconds};
+use shotsilk::sim::{SimSettings, Simulation, SizingMode};
 
 /// What a folder of states asks to be told; nothing of it matters here.
 fn info() -> RunInfo {
@@ -26,15 +30,6 @@ fn info() -> RunInfo {
         adapter: None,
         settings,
     }
-}
-
-/// All that a frame holds but its timings. Debug output tells every number from every other, and
-/// 0 from -0.
-fn bits(frame: &Frame) -> String {
-    let mut untimed = frame.clone();
-    untimed.report.stages = StageSeconds::default();
-    untimed.report.cpu_seconds = 0.0;
-    format!("{untimed:?}")
 }
 
 /// Goes on for a frame from each of the last `count` stored frames before frame `last`.

@@ -1,6 +1,9 @@
 //! Arguments that several commands share.
 
+use std::fmt::Display;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 
@@ -33,7 +36,7 @@ pub struct ShotArgs {
     #[arg(long, value_name = "METRES", value_parser = parse_length, allow_negative_numbers = true)]
     pub edge_length: Option<f64>,
     /// Threads to compute with; without it all there are. The result does not depend on it
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_parser = |text: &str| parse_count(text, 1..=u16::MAX))]
     pub threads: Option<u16>,
 }
 
@@ -97,7 +100,7 @@ impl FrameRange {
 }
 
 /// The last frame that can be asked for: days of film, and a list of its frames still fits in memory.
-const FRAME_MAX: u32 = 9_999_999;
+pub(super) const FRAME_MAX: u32 = 9_999_999;
 
 pub(super) fn parse_frames(text: &str) -> Result<FrameRange, String> {
     let number = |part: &str| {
@@ -112,6 +115,16 @@ pub(super) fn parse_frames(text: &str) -> Result<FrameRange, String> {
         return Err(format!("the first frame {first} is after the last, {last}"));
     }
     Ok(FrameRange { first, last })
+}
+
+/// A whole number within limits.
+pub(super) fn parse_count<T>(text: &str, limits: RangeInclusive<T>) -> Result<T, String>
+where
+    T: FromStr + PartialOrd + Display,
+{
+    let number = text.parse().ok().filter(|number| limits.contains(number));
+    let (least, most) = (limits.start(), limits.end());
+    number.ok_or_else(|| format!("{text:?} is not a whole number from {least} to {most}"))
 }
 
 fn parse_length(text: &str) -> Result<f64, String> {
@@ -154,6 +167,15 @@ mod tests {
     fn backward_and_unreadable_ranges_are_refused() {
         for text in ["7..3", "a..3", "-1", "1...3", "", "4294967295"] {
             assert!(parse_frames(text).is_err(), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn counts_are_whole_numbers_within_limits() {
+        assert_eq!((parse_count("1", 1..=64), parse_count("64", 1..=64)), (Ok(1), Ok(64)));
+        for text in ["0", "65", "-1", "1.5", "many", "99999999999", ""] {
+            let error = parse_count::<u32>(text, 1..=64).unwrap_err();
+            assert_eq!(error, format!("{text:?} is not a whole number from 1 to 64"));
         }
     }
 

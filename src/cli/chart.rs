@@ -15,7 +15,7 @@ use super::args::ShotArgs;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::log::LogArgs;
-use super::output::{self, PendingFile, PendingFolder};
+use super::output::{self, PendingFolder};
 use crate::render::{AdapterChoice, Headless};
 use crate::validation::{Experiment, Row, experiments};
 
@@ -105,8 +105,8 @@ fn visible_error(args: &ChartArgs, log: LogArgs) -> Result<()> {
 
 fn validation(args: &ChartArgs) -> Result<()> {
     let chosen = chosen(experiments(), args.only.as_deref())?;
-    let _folder = PendingFolder::create(&args.out)?;
-    let file = PendingFile::create(&args.out.join("validation.json"))?;
+    let folder = PendingFolder::create(&args.out)?;
+    let file = folder.file("validation.json")?;
     let interrupt = Interrupt::install().context("cannot listen for signals")?;
     let rows = measured(&chosen, &interrupt)?;
     let rows: Vec<Row> = rows.into_iter().filter(|r| is_wanted(&r.name, args)).collect();

@@ -6,6 +6,7 @@ mod compare;
 mod failure;
 mod footage;
 mod interrupt;
+mod leftovers;
 mod log;
 mod output;
 mod pictures;

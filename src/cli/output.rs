@@ -9,6 +9,8 @@ use anyhow::{Context, Result};
 use image::{ImageFormat, RgbaImage};
 use tempfile::NamedTempFile;
 
+use super::leftovers;
+
 /// An output that can be written but is not there yet; dropped, it leaves nothing.
 pub struct PendingFile {
     file: NamedTempFile,
@@ -17,23 +19,21 @@ pub struct PendingFile {
 
 impl PendingFile {
     /// Creates the temporary file beside `path`: before the work starts, so that an output which
-    /// cannot be written is known at once.
+    /// cannot be written is known at once. Those that killed programs have left there go.
     ///
     /// # Errors
     /// If the folder is missing or cannot be written, or `path` is a folder.
     pub fn create(path: &Path) -> Result<Self> {
+        leftovers::sweep(folder_of(path));
+        Self::begin(path)
+    }
+
+    fn begin(path: &Path) -> Result<Self> {
         let cannot = || format!("cannot write {:?}", path.display());
         if path.is_dir() {
             anyhow::bail!("{}: it is a folder", cannot());
         }
-        let folder = match path.parent() {
-            Some(folder) if folder != Path::new("") => folder,
-            _ => Path::new("."),
-        };
-        let file = tempfile::Builder::new()
-            .prefix(".shotsilk-")
-            .permissions_of_a_new_file()
-            .tempfile_in(folder)
+        let file = leftovers::create_temporary(folder_of(path))
             // Its text would name the temporary file.
             .map_err(|error| io::Error::from(error.kind()))
             .with_context(cannot)?;
@@ -49,6 +49,20 @@ impl PendingFile {
         Ok(())
     }
 
+    /// There is nothing to be written: what an earlier command left under the name goes, so that
+    /// nobody takes it for the output of this one.
+    ///
+    /// # Errors
+    /// If the file system refuses.
+    pub fn leave_out(self) -> Result<()> {
+        match fs::remove_file(&self.path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                Err(error).with_context(|| format!("cannot remove {:?}", self.path.display()))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// # Errors
     /// If the file system refuses.
     pub fn write_png(self, image: &RgbaImage) -> Result<()> {
@@ -60,23 +74,43 @@ impl PendingFile {
     }
 }
 
+/// Where a file is to be.
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
+}
+
 /// A folder for outputs, made with those above it. Dropped while empty, it takes what it made away
 /// again.
 pub struct PendingFolder {
+    path: PathBuf,
     /// Deepest first.
     made: Vec<PathBuf>,
 }
 
 impl PendingFolder {
+    /// Temporary files that killed programs have left in it go.
+    ///
     /// # Errors
     /// If the folder cannot be made or written, or is a file.
     pub fn create(path: &Path) -> Result<Self> {
         let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
         let made = path.ancestors().take_while(is_missing).map(Path::to_owned).collect();
-        let folder = Self { made };
+        let folder = Self { path: path.to_owned(), made };
         fs::create_dir_all(path).with_context(|| format!("cannot create {:?}", path.display()))?;
-        PendingFile::create(&path.join("probe"))?;
+        leftovers::sweep(path);
+        folder.file("probe")?;
         Ok(folder)
+    }
+
+    /// An output in it.
+    ///
+    /// # Errors
+    /// If the folder cannot be written, or holds a folder of that name.
+    pub fn file(&self, name: &str) -> Result<PendingFile> {
+        PendingFile::begin(&self.path.join(name))
     }
 }
 
@@ -102,24 +136,6 @@ pub fn print(result: impl std::fmt::Display) -> Result<()> {
     }
 }
 
-/// Temporary files are private by default; an output is as open as any other file.
-trait NewFilePermissions {
-    fn permissions_of_a_new_file(&mut self) -> &mut Self;
-}
-
-impl NewFilePermissions for tempfile::Builder<'_, '_> {
-    fn permissions_of_a_new_file(&mut self) -> &mut Self {
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // What the process's mask leaves of it.
-            self.permissions(fs::Permissions::from_mode(0o666))
-        }
-        #[cfg(not(unix))]
-        self
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -136,6 +152,16 @@ mod tests {
     }
 
     #[test]
+    fn an_output_that_is_left_out_is_not_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        PendingFile::create(&path).unwrap().leave_out().unwrap();
+        fs::write(&path, "an earlier one").unwrap();
+        PendingFile::create(&path).unwrap().leave_out().unwrap();
+        assert_eq!(folder.path().read_dir().unwrap().count(), 0);
+    }
+
+    #[test]
     fn an_output_in_a_missing_folder_or_in_place_of_one_is_refused_at_once() {
         let folder = tempfile::tempdir().unwrap();
         assert!(PendingFile::create(&folder.path().join("no/a.png")).is_err());
@@ -149,7 +175,7 @@ mod tests {
         drop(PendingFolder::create(&path).unwrap());
         assert_eq!(above.path().read_dir().unwrap().count(), 0);
         let folder = PendingFolder::create(&path).unwrap();
-        PendingFile::create(&path.join("a.png")).unwrap().write_png(&RgbaImage::new(2, 2)).unwrap();
+        folder.file("a.png").unwrap().write_png(&RgbaImage::new(2, 2)).unwrap();
         drop(folder);
         assert!(path.join("a.png").is_file());
         drop(PendingFolder::create(above.path()).unwrap());

@@ -38,6 +38,8 @@ pub struct Progress {
     total: u64,
     done: u64,
     started: Instant,
+    /// When the last frame was done.
+    last: Instant,
     bar: Option<ProgressBar>,
 }
 
@@ -49,13 +51,16 @@ impl Progress {
                 .expect("the template is well formed");
             TERMINAL.add(ProgressBar::new(total).with_style(style))
         });
-        Self { mode, total, done: 0, started: Instant::now(), bar }
+        let started = Instant::now();
+        Self { mode, total, done: 0, started, last: started, bar }
     }
 
-    /// A frame is done; `first_frame` is what the shot calls frame 0.
+    /// A frame is done, whatever was done with it; `first_frame` is what the shot calls frame 0.
     pub fn frame(&mut self, frame: &Frame, first_frame: i64) {
         let number = i64::from(frame.number) + first_frame;
-        let (faces, seconds) = (frame.face_count(), frame.report.stages.total());
+        let now = Instant::now();
+        let seconds = (now - std::mem::replace(&mut self.last, now)).as_secs_f64();
+        let faces = frame.face_count();
         self.done += 1;
         let left = time_left(self.started.elapsed(), self.done, self.total);
         match self.mode {
@@ -141,9 +146,11 @@ mod tests {
             [ProgressMode::Bar, ProgressMode::Lines, ProgressMode::Log, ProgressMode::Silent]
         {
             let mut progress = Progress::new(2, mode);
+            let start = progress.last;
             progress.frame(&Frame::default(), 1001);
             progress.frame(&Frame::default(), 1001);
             assert_eq!(progress.done, 2);
+            assert!(progress.last > start);
             progress.finish();
         }
     }

@@ -1,17 +1,16 @@
 //! `shotsilk render`: PNG frames.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
-use image::RgbaImage;
 
-use super::args::ShotArgs;
+use super::args::{FRAME_MAX, ShotArgs, parse_count};
 use super::failure::Failure;
 use super::footage::Footage;
 use super::interrupt::Interrupt;
 use super::log::LogArgs;
-use super::output::{self, PendingFile, PendingFolder};
+use super::output::{self, PendingFolder};
 use super::pictures::{PictureArgs, Studio};
 use super::progress::{Progress, ProgressMode};
 use crate::render::Headless;
@@ -29,10 +28,10 @@ pub struct RenderArgs {
     #[arg(long, value_enum, default_value_t = Views::Both)]
     view: Views,
     /// Draw every N-th frame
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = |text: &str| parse_count(text, 1..=FRAME_MAX))]
     every: u32,
     /// Width of the pictures (px); without it the shot's own
-    #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u32).range(16..=16384))]
+    #[arg(long, value_name = "PX", value_parser = |text: &str| parse_count(text, 16..=16384u32))]
     width: Option<u32>,
     /// Draw the legend of the colours into the pictures
     #[arg(long)]
@@ -55,7 +54,7 @@ const LEGEND_PX: f32 = 14.0;
 pub fn run(args: &RenderArgs, log: LogArgs) -> Result<()> {
     super::shot::set_threads(args.shot.threads)?;
     let gpu = Headless::new(&args.pictures.adapter).map_err(Failure::from)?;
-    let _folder = PendingFolder::create(&args.out)?;
+    let folder = PendingFolder::create(&args.out)?;
     let interrupt = Interrupt::install().context("cannot listen for signals")?;
     let footage = Footage::open(&args.shot, args.every, &interrupt, log)?;
     let mut studio = Studio::new(&footage, gpu, &args.pictures, args.width)?;
@@ -68,17 +67,13 @@ pub fn run(args: &RenderArgs, log: LogArgs) -> Result<()> {
         let frame = footage.frame(number)?;
         let shown = i64::from(number) + footage.info().first_frame;
         if args.view != Views::Witness {
-            save(&studio.shot(&frame)?, &args.out.join(format!("{shown:04}.shot.png")))?;
+            folder.file(&format!("{shown:04}.shot.png"))?.write_png(&studio.shot(&frame)?)?;
         }
         if args.view != Views::Shot {
-            save(&studio.witness(&frame)?, &args.out.join(format!("{shown:04}.witness.png")))?;
+            folder.file(&format!("{shown:04}.witness.png"))?.write_png(&studio.witness(&frame)?)?;
         }
         progress.frame(&frame, footage.info().first_frame);
     }
     progress.finish();
     output::print(args.out.display())
-}
-
-fn save(image: &RgbaImage, path: &Path) -> Result<()> {
-    PendingFile::create(path)?.write_png(image)
 }

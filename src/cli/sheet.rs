@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use clap::Args;
 
-use super::args::ShotArgs;
+use super::args::{FRAME_MAX, ShotArgs, parse_count};
 use super::failure::Failure;
 use super::footage::Footage;
 use super::interrupt::Interrupt;
@@ -27,14 +27,17 @@ pub struct SheetArgs {
     #[arg(long, short, value_name = "FILE", value_parser = parse_png_path)]
     out: PathBuf,
     /// Show every N-th frame
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = |text: &str| parse_count(text, 1..=FRAME_MAX))]
     every: u32,
     /// Width of a picture on the sheet (px)
-    #[arg(long, value_name = "PX", default_value_t = 400, value_parser = clap::value_parser!(u32).range(64..=4096))]
+    #[arg(long, value_name = "PX", default_value_t = 400, value_parser = |text: &str| parse_count(text, 64..=4096u32))]
     thumbnail_width: u32,
     /// Pairs of pictures in a row; without it as many as suit the sheet's shape
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", value_parser = |text: &str| parse_count(text, 1..=64u32))]
     columns: Option<u32>,
+    /// Leave the seconds out of the captions: sheets of equal runs are then equal
+    #[arg(long)]
+    no_seconds: bool,
 }
 
 /// Small pictures want fainter edges.
@@ -61,7 +64,7 @@ pub fn run(args: &SheetArgs, log: LogArgs) -> Result<()> {
         items.push(SheetItem {
             shot: studio.shot(&frame)?,
             witness: studio.witness(&frame)?,
-            caption: caption(&frame, footage.info()),
+            caption: caption(&frame, footage.info(), args),
         });
     }
     let options = SheetOptions {
@@ -83,11 +86,11 @@ pub(super) fn parse_png_path(text: &str) -> Result<PathBuf, String> {
     }
 }
 
-fn caption(frame: &Frame, info: &RunInfo) -> Caption {
+fn caption(frame: &Frame, info: &RunInfo, args: &SheetArgs) -> Caption {
     Caption {
         frame: i64::from(frame.number) + info.first_frame,
         face_count: frame.face_count(),
-        wall_seconds: Some(frame.report.stages.total()),
+        wall_seconds: (!args.no_seconds).then(|| frame.report.stages.total()),
         view_factor_mean: (info.sizing_mode == "view").then_some(frame.report.view_factor_mean),
     }
 }

@@ -27,7 +27,7 @@ pub struct SimulateArgs {
     #[arg(long)]
     overwrite: bool,
     /// Go on with a run that was interrupted, killed, or asked for fewer frames; the bits are those
-    /// of a run that never stopped. All other arguments as before
+    /// of a run that never stopped. All other arguments as before. Where there is no run yet, begin one
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
     /// Write every garment at every frame as OBJ
@@ -98,7 +98,7 @@ fn resumed(
     let shown = |number: u32| i64::from(number) + shot.info.first_frame;
     Ok(match run.remainder {
         Remainder::All => {
-            tracing::info!("no frame is there to go on from: starting over");
+            tracing::info!("no frame is there to go on from: starting at frame {}", shown(0));
             Some((run.writer, None))
         }
         Remainder::After(frame) => {

@@ -1,5 +1,6 @@
 //! What is compared, by the names that tables, files and tolerances share.
 
+use super::report::Kind;
 use crate::resample::VisibleError;
 
 /// A number that says how much two results differ; 0 where they do not.
@@ -43,6 +44,15 @@ impl Metric {
         Self::UnseenRmsM,
         Self::UnseenP95M,
     ];
+
+    /// Whether things of a kind can have a value of it.
+    pub fn is_of(self, kind: Kind) -> bool {
+        match self {
+            Self::Share => kind == Kind::Pictures,
+            Self::Flip => true,
+            _ => kind == Kind::Runs,
+        }
+    }
 
     pub fn name(self) -> &'static str {
         match self {

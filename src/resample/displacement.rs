@@ -25,6 +25,10 @@ pub struct Pair<'a> {
     pub other: &'a ClothMap,
 }
 
+/// Shorter shifts are none (px). The way from a pixel to the cloth and back rounds by some 1e-13 px,
+/// or 1e-10 px a kilometre from the origin; nothing that a simulation does is as small.
+const SHIFT_MIN_PX: f64 = 1e-9;
+
 impl Displacement {
     /// Finds what each pixel of `raster` shows of `now.reference` in `now.other`, whether it can be
     /// seen there or not, and projects it by the same view. With the frame `before`, seen by the
@@ -53,7 +57,7 @@ impl Displacement {
         let diagonal = DVec2::from_array(view.resolution.map(f64::from));
         let popping = |&pair: &Option<(Option<DVec2>, Option<DVec2>)>| {
             let (now, before) = pair?;
-            Some(now? - before?)
+            Some(measurable(now? - before?))
         };
         Self {
             shift: pairs.iter().map(|p| p.map(|(now, _)| now.unwrap_or(diagonal))).collect(),
@@ -100,5 +104,10 @@ fn cloth_point(map: &ClothMap, seen: Sighting) -> Option<ClothPoint> {
 }
 
 fn shift_from(place: DVec2, map: &ClothMap, point: ClothPoint, view: &View) -> Option<DVec2> {
-    Some(view.point_in_image(map.point_in_world(point))? - place)
+    Some(measurable(view.point_in_image(map.point_in_world(point))? - place))
+}
+
+/// The shift, or none where it is too short to be told from rounding.
+fn measurable(shift: DVec2) -> DVec2 {
+    if shift.length() < SHIFT_MIN_PX { DVec2::ZERO } else { shift }
 }

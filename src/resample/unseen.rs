@@ -17,6 +17,10 @@ const SAMPLE_AREA: f64 = 1.0 / 10_000.0;
 /// Parts that a face's edge is divided into, at most.
 const PARTS_MAX: u32 = 64;
 
+/// Shorter distances are none (m): coordinates of metres round by some 1e-16 m, those of kilometres by
+/// some 1e-13 m.
+const DISTANCE_MIN: f64 = 1e-12;
+
 /// Cloth that the reference does not show.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Unseen {
@@ -79,7 +83,8 @@ fn face_samples<'a>(
 
 fn displacement(pair: Pair<'_>, at: super::ClothPoint, point_in_world: DVec3) -> f64 {
     let other: &ClothMap = pair.other;
-    other.point_in_world(at).distance(point_in_world)
+    let distance = other.point_in_world(at).distance(point_in_world);
+    if distance < DISTANCE_MIN { 0.0 } else { distance }
 }
 
 /// How many parts each edge of a face is divided into so that none is longer than the spacing.

@@ -68,6 +68,27 @@ fn another_triangulation_of_the_same_sheet_has_no_error() {
 }
 
 #[test]
+fn rounding_is_no_shift_and_the_least_shift_is_one() {
+    let bent = |p: DVec3| DVec3::new(p.x, p.y, 0.3 * p.x);
+    let reference = map([moved(&sheet(16, 12), bent)]);
+    let view = overhead(SIZE);
+    for mesh in [sheet(16, 12), sheet(3, 2)] {
+        let other = map([moved(&mesh, bent)]);
+        let now = Pair { reference: &reference, other: &other };
+        let shown = Shown { now, before: Some(now), surfaces: &[], view: &view, size: SIZE };
+        let error = shown.measure().unwrap().error;
+        let none = Spread::default();
+        assert_eq!(
+            (error.displacement, error.popping, error.unseen.displacement),
+            (none, Some(none), none)
+        );
+    }
+    let hair = moved(&sheet(16, 12), |p| bent(p) + 1e-10 * DVec3::X);
+    let error = measured(&reference, &map([hair]));
+    assert!(error.displacement.rms > 1e-10 * PX_PER_M, "{}", error.displacement.rms);
+}
+
+#[test]
 fn a_turn_about_the_line_of_sight_grows_with_the_distance_from_it() {
     let angle = 0.02;
     let turned = |p: DVec3| (DVec2::from_angle(angle).rotate(p.truncate() - 0.5) + 0.5).extend(p.z);

@@ -81,11 +81,16 @@ impl Place {
             return if overwrite { Ok(()) } else { Err(RunError::AlreadyARun { path }) };
         }
         fs::create_dir_all(&self.dir).map_err(RunError::io("create", &self.dir))?;
-        if names_in(&self.dir)?.is_empty() || self.is_begun()? {
+        if self.is_vacant()? || self.is_begun()? {
             Ok(())
         } else {
             Err(RunError::Occupied { path: self.dir.clone() })
         }
+    }
+
+    /// True if the folder is empty or not there.
+    pub fn is_vacant(&self) -> Result<bool, RunError> {
+        Ok(names_in(&self.dir)?.is_empty())
     }
 
     /// True if the folder holds nothing but what a program leaves that is killed before `run.json`

@@ -36,11 +36,13 @@ impl RunWriter {
     /// Opens a run again of which the frames `wanted` are to be there in the end; `info`,
     /// `obstacles` and `options` are those of a new run. It goes on after the last of them up to
     /// which none is missing or damaged, and what is there of later ones is forgotten. Lost rows of
-    /// the statistics and OBJ files of the frames that stay are written again.
+    /// the statistics and OBJ files of the frames that stay are written again. Where there is nothing
+    /// yet, a run is begun.
     ///
     /// # Errors
-    /// If the folder holds no run, one that has lost its `run.json`, that of other input or another version of the program, one that
-    /// has only later frames of those wanted, or one that another program is writing.
+    /// If the folder holds something that is no run, a run that has lost its `run.json`, one of other
+    /// input or another version of the program, one that has only later frames of those wanted, or
+    /// one that another program is writing.
     pub fn resume(
         dir: &Path,
         info: &RunInfo,
@@ -49,10 +51,10 @@ impl RunWriter {
         options: WriteOptions,
     ) -> Result<ResumedRun, RunError> {
         let place = Place { dir: dir.to_owned() };
-        if !dir.is_dir() {
+        if dir.exists() && !dir.is_dir() {
             return Err(RunError::NotARun { path: place.dir });
         }
-        if place.is_begun()? {
+        if place.is_vacant()? || place.is_begun()? {
             let writer = Self::create(dir, info, obstacles, options)?;
             return Ok(ResumedRun { writer, remainder: Remainder::All, warnings: Vec::new() });
         }

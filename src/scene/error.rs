@@ -8,6 +8,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use super::deformation::DeformationError;
+use super::fabric::PRESETS;
 use super::motion::MotionError;
 use crate::mesh::MeshError;
 
@@ -90,6 +91,8 @@ pub enum Problem {
     OutOfRange { thing: String, value: String, limit: String },
     #[error("there is no {kind} {name:?}{}", suggestion(nearest))]
     UnknownName { kind: &'static str, name: String, nearest: Option<String> },
+    #[error("there is no preset {name:?} among {}{}", preset_names().join(", "), suggestion(nearest))]
+    UnknownPreset { name: String, nearest: Option<String> },
     #[error("{thing} is not supported yet")]
     NotSupported { thing: String },
     #[error("{thing} needs {needed}")]
@@ -123,6 +126,10 @@ pub enum Problem {
     FrameRate { camera: f64, scene: f64 },
     #[error("{thing}: {what}")]
     Camera { thing: String, what: &'static str },
+}
+
+pub(super) fn preset_names() -> [&'static str; PRESETS.len()] {
+    PRESETS.map(|preset| preset.name)
 }
 
 fn suggestion(nearest: &Option<String>) -> String {

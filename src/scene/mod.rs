@@ -19,7 +19,10 @@ mod source;
 mod surface;
 
 pub use deformation::{Deformation, DeformationError, PointKey};
+pub(crate) use document::from_json;
 pub use error::{LoadError, Place, Problem};
+#[cfg(test)]
+pub use fabric::testing;
 pub use fabric::{
     BendingModel, ElasticFabric, Fabric, IsotropicSheet, MeasuredFabric, PRESETS, PlateCompliance,
     Preset, StretchStiffness,

@@ -24,7 +24,8 @@ pub struct Caption {
     /// As the shot counts: with its `first_frame`.
     pub frame: i64,
     pub face_count: usize,
-    /// What the frame took to simulate (wall seconds); `None` if nobody measured.
+    /// What the frame took to simulate (wall seconds); `None` leaves it unsaid.
+    /// They are never the same twice.
     pub wall_seconds: Option<f64>,
     /// Weighted by area; `None` if nobody watches.
     pub view_factor_mean: Option<f64>,

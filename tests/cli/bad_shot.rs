@@ -38,7 +38,7 @@ fn malformed_json_is_answered_with_line_and_column() {
 fn values_of_the_wrong_kind_and_wrong_names_are_answered_with_the_place() {
     for (from, to, parts) in [
         ("\"fps\": 24", "\"fps\": \"fast\"", &["shot.json:3:12", "\"fast\"", "a number"][..]),
-        ("\"fps\": 24", "\"fsp\": 24", &["shot.json:3:5", "`fsp`", "`fps`"]),
+        ("\"fps\": 24", "\"fsp\": 24", &["shot.json:3:5", "\"fsp\"", "\"fps\""]),
         ("\"fps\": 24", "\"frames\": 4", &["shot.json:4:5", "\"frames\" appears twice"]),
         ("\"fabric\": \"cotton\"", "\"fabric\": \"coton\"", &["shot.json:8:40", "\"cotton\""]),
         ("\"motion\": \"rise\"", "\"motion\": \"raise\"", &["shot.json:14:51", "\"rise\""]),
@@ -73,13 +73,13 @@ fn overrides_are_checked_like_the_file_and_named() {
         ("view.nu_ot=1", &["there is no setting \"view.nu_ot\"", "\"view.nu_out\""][..]),
         ("nu_out=1", &["did you mean \"view.nu_out\"?"]),
         ("view.nu_out=0", &["view.nu_out is 0", "greater than 0 and at most 1"]),
-        ("fps=fast", &["string \"fast\", expected a number"]),
-        ("garments=5", &["integer `5`, expected a list"]),
-        ("view=5", &["integer `5`, expected an object"]),
-        ("garments.0.two_sided=5", &["integer `5`, expected true or false"]),
+        ("fps=fast", &["expected a number, found \"fast\""]),
+        ("garments=5", &["expected a list, found 5"]),
+        ("view=5", &["expected an object, found 5"]),
+        ("garments.0.two_sided=5", &["expected true or false, found 5"]),
         ("gravity=[0,0", &["Unterminated array"]),
         ("gravity=[0,0,1e999]", &["1e999"]),
-        ("handles.0.nodes.0=-1", &["`-1`, expected a whole number, 0 or more"]),
+        ("handles.0.nodes.0=-1", &["expected a whole number, 0 or more, found -1"]),
         ("handles.4.end_time=1", &["\"handles\"", "4", "less than 1"]),
     ] {
         let named = format!("--set {set}: ");

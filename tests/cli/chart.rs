@@ -1,6 +1,8 @@
 //! `chart`: a suite as a table and a file.
 
-use crate::program::run;
+use std::time::{Duration, Instant};
+
+use crate::program::{self, run};
 use crate::small_shot::SmallShot;
 
 #[test]
@@ -18,6 +20,37 @@ fn rows_that_hold_are_a_table_and_a_file() {
         assert_eq!(keys, ["name", "expected", "measured", "error", "tolerance"]);
         assert!(row["name"].as_str().unwrap().starts_with("patch-test/"));
     }
+}
+
+#[test]
+fn what_a_killed_chart_has_left_is_swept_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join("a").join(name);
+    std::fs::create_dir(at("")).unwrap();
+    let line = "chart --suite validation --threads 1 --out a";
+    let mut child = program::start(folder.path(), line);
+    let left = || -> Vec<String> {
+        let names = at("").read_dir().unwrap().map(|e| e.unwrap().file_name());
+        names.map(|name| name.into_string().unwrap()).collect()
+    };
+    let started = Instant::now();
+    while left().is_empty() {
+        assert!(started.elapsed() < Duration::from_secs(120), "it writes nothing");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    // What it probes the folder with is gone by then.
+    std::thread::sleep(Duration::from_millis(300));
+    let quick = format!("{line} --only free-fall");
+    let own = left();
+    run(folder.path(), &quick).succeeds();
+    assert!(own.iter().all(|name| at(name).exists()), "another program is writing: {own:?}");
+    child.kill().unwrap();
+    child.wait().unwrap();
+    std::fs::write(at("notes.txt"), "mine").unwrap();
+    run(folder.path(), &quick).succeeds();
+    let mut names = left();
+    names.sort_unstable();
+    assert_eq!(names, ["notes.txt", "validation.json"]);
 }
 
 #[test]

@@ -34,7 +34,8 @@ fn a_run_does_not_differ_from_itself_and_a_coarser_one_does() {
     let shot = two_runs();
     let same = json(&shot.run("compare fine fine --json -").succeeds().stdout);
     assert_eq!(same["items"].as_array().unwrap().len(), 5);
-    assert!(same["largest"]["rms_px"].as_f64().unwrap() < 1e-6, "{same}");
+    let largest = same["largest"].as_object().unwrap();
+    assert!(largest.len() > 5 && largest.values().all(|value| *value == 0.0), "{same}");
 
     let other = json(&shot.run("compare fine coarse --json -").succeeds().stdout);
     assert!(other["largest"]["rms_px"].as_f64().unwrap() > 0.1, "{other}");
@@ -63,6 +64,33 @@ fn a_limit_that_is_exceeded_is_exit_code_6_and_every_output_is_whole() {
     assert_eq!(shot.text("d.csv").lines().count(), 3);
     let page = image::image_dimensions(shot.path("d.png")).unwrap();
     assert_eq!(page, (3 * 160 + 2 * 8, 90));
+}
+
+#[test]
+fn a_limit_that_means_nothing_is_told_of_and_refused_if_there_is_no_other() {
+    let shot = two_runs();
+    picture(&shot, "a.png", 8);
+    shot.write("both.json", r#"{"share": 0, "rms_px": 1000}"#);
+    shot.write("share.json", r#"{"levels": 4, "share": 0}"#);
+    shot.write("rms.json", r#"{"rms_px": 0}"#);
+    for (pair, idle) in [("fine coarse", "share"), ("a.png a.png", "rms_px")] {
+        let said = shot.run(&format!("compare {pair} --tolerance both.json")).succeeds().stderr;
+        assert!(said.contains(&format!("\"both.json\" limits {idle}, which")), "{said}");
+    }
+    shot.run("compare fine coarse --tolerance share.json")
+        .fails(3, &["\"share.json\"", "limits only what runs do not have: share"]);
+    shot.run("compare a.png a.png --tolerance rms.json")
+        .fails(3, &["limits only what pictures do not have: rms_px"]);
+}
+
+#[test]
+fn the_progress_of_a_comparison_is_its_own() {
+    let shot = two_runs();
+    let said = shot.run("compare fine coarse --frames 1 --log json").succeeds().stderr;
+    let event = json(said.lines().last().unwrap());
+    assert_eq!((&event["frame"], &event["message"]), (&1.into(), &"frame done".into()));
+    let (seconds, run) = (event["seconds"].as_f64().unwrap(), shot.reader("fine"));
+    assert!(seconds > 0.0 && seconds != run.frame(1).unwrap().report.stages.total());
 }
 
 #[test]
@@ -208,7 +236,7 @@ fn what_cannot_be_compared_is_bad_input_and_leaves_nothing() {
         ("compare fine none", "\"none\""),
         ("compare fine a.png", "only like is compared with like"),
         ("compare a.png bad.png --json d.json", "\"bad.png\""),
-        ("compare a.png a.png --tolerance bad.json", "unknown field `rms`"),
+        ("compare a.png a.png --tolerance bad.json", "bad.json:1:2: unknown key \"rms\""),
         ("compare a.png bad.png --bless", "\"bad.png\""),
     ] {
         shot.run(line).fails(3, &[part]);

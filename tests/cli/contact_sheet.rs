@@ -34,6 +34,23 @@ fn without_a_shot_the_programs_own_is_drawn_wherever_it_runs() {
 }
 
 #[test]
+fn sheets_of_equal_runs_are_equal_but_for_the_seconds() {
+    let shot = SmallShot::new();
+    shot.write("none.json", r#"{"share": 0}"#);
+    for name in ["a", "b"] {
+        shot.run(&format!("simulate shot.json --out {name}")).succeeds();
+        for (file, option) in [("timed", ""), ("bare", "--no-seconds")] {
+            let line = format!("sheet {name} --out {name}.{file}.png --every 2 {option}");
+            shot.run(&format!("{line} --thumbnail-width {WIDTH}")).succeeds();
+        }
+    }
+    let bytes = |name: &str| std::fs::read(shot.path(name)).unwrap();
+    assert!(bytes("a.bare.png") == bytes("b.bare.png"));
+    assert!(bytes("a.bare.png") != bytes("a.timed.png"), "the seconds are there by default");
+    shot.run("compare a.bare.png b.bare.png --tolerance none.json").succeeds();
+}
+
+#[test]
 fn an_earlier_sheet_stays_until_the_new_one_is_whole() {
     let shot = SmallShot::new();
     shot.write("sheet.png", "an earlier one");

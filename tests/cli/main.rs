@@ -11,6 +11,8 @@ mod bad_shot;
 mod chart;
 mod compare;
 mod contact_sheet;
+#[path = "../support/frame_bits.rs"]
+mod frame_bits;
 mod program;
 mod reference;
 mod render;

@@ -1,7 +1,7 @@
 //! The built binary, run as from a shell.
 
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 
 /// The program in a folder, without the settings of whoever runs the tests.
 pub fn command(folder: &Path, line: &str) -> Command {
@@ -14,6 +14,12 @@ pub fn command(folder: &Path, line: &str) -> Command {
         command.env("XDG_RUNTIME_DIR", folder);
     }
     command
+}
+
+/// The program at work, unheard.
+pub fn start(folder: &Path, line: &str) -> Child {
+    let mut command = command(folder, line);
+    command.stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("the program starts")
 }
 
 /// What came of a command.

@@ -1,7 +1,6 @@
 //! A run that was killed, damaged or interrupted goes on with the bits of one that never stopped.
 
 use std::fs;
-use std::process::Stdio;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -20,11 +19,7 @@ const PATIENCE: Duration = Duration::from_secs(120);
 /// Starts a command and kills it as soon as a file is there, and `delay` has passed; a command that
 /// ends earlier has ended.
 fn kill_when_there(shot: &SmallShot, line: &str, file: &str, delay: Duration) {
-    let mut child = program::command(shot.folder(), line)
-        .stderr(Stdio::null())
-        .stdout(Stdio::null())
-        .spawn()
-        .expect("the program starts");
+    let mut child = program::start(shot.folder(), line);
     let started = Instant::now();
     while !shot.path(file).exists() && child.try_wait().unwrap().is_none() {
         assert!(started.elapsed() < PATIENCE, "{file} does not come");
@@ -119,11 +114,25 @@ fn a_run_of_some_frames_starts_over_until_the_first_of_them_is_there() {
     kill_when_there(&shot, line, "run/stats.csv", Duration::ZERO);
     assert_eq!(shot.names("run/frames"), [""; 0]);
     let outcome = shot.run("simulate shot.json --out run --frames 3..6 --resume").succeeds();
-    assert!(outcome.stderr.contains("starting over"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("starting at frame 0"), "{}", outcome.stderr);
     assert_same(&shot.reader("run"), &shot.reader("straight"));
     shot.run("simulate shot.json --out run --frames 6 --resume")
         .fails(3, &["\"run\" holds frame 3, but not frame 0", "--frames", "--overwrite"]);
     assert_eq!(shot.reader("run").frames(), [3, 4, 5, 6]);
+}
+
+#[test]
+fn where_there_is_nothing_yet_a_run_is_begun() {
+    let shot = SmallShot::new();
+    let line = "simulate shot.json --set first_frame=1001 --out";
+    shot.run(&format!("{line} straight")).succeeds();
+    fs::create_dir(shot.path("empty")).unwrap();
+    for run in ["empty", "deep/new"] {
+        let outcome = shot.run(&format!("{line} {run} --resume")).succeeds();
+        assert!(outcome.stderr.contains("starting at frame 1001"), "{}", outcome.stderr);
+        assert_eq!(outcome.stdout, format!("{run}\n"));
+        assert_same(&shot.reader(run), &shot.reader("straight"));
+    }
 }
 
 #[test]
@@ -135,7 +144,6 @@ fn what_cannot_be_resumed_is_refused_and_not_touched() {
     let before = (shot.names(""), shot.names("run"), shot.text("run/stats.csv"));
     for (arguments, code, parts) in [
         ("--out run --overwrite", 2, &["--resume", "--overwrite"][..]),
-        ("--out no-run", 3, &["\"no-run\" is not a run folder"]),
         ("--out mine", 3, &["\"mine\" is not a run folder"]),
         ("--out cloth.obj", 3, &["\"cloth.obj\" is not a run folder"]),
         ("--out run --sizing adaptive", 3, &["\"run\" comes from other settings"]),
@@ -153,11 +161,7 @@ fn what_cannot_be_resumed_is_refused_and_not_touched() {
 fn two_programs_do_not_write_one_run() {
     let shot = SmallShot::new();
     let line = "simulate shot.json --out run --frames 1000000";
-    let mut child = program::command(shot.folder(), line)
-        .stderr(Stdio::null())
-        .stdout(Stdio::null())
-        .spawn()
-        .expect("the program starts");
+    let mut child = program::start(shot.folder(), line);
     let started = Instant::now();
     while !shot.path("run/frames/000000.sfr").exists() {
         assert!(started.elapsed() < PATIENCE, "frame 0 does not come");

@@ -1,18 +1,10 @@
 //! The same shot and settings give the same bits, every time and for any number of threads.
 
 use shotsilk::run::RunReader;
-use shotsilk::sim::{Frame, StageSeconds};
+use shotsilk::sim::Frame;
 
+use super::frame_bits::bits;
 use super::small_shot::SmallShot;
-
-/// All that a frame holds but its timings. Debug output tells every number from every other, and
-/// 0 from -0.
-fn bits(frame: &Frame) -> String {
-    let mut untimed = frame.clone();
-    untimed.report.stages = StageSeconds::default();
-    untimed.report.cpu_seconds = 0.0;
-    format!("{untimed:?}")
-}
 
 /// Every frame has the same bits.
 #[track_caller]

@@ -17,7 +17,7 @@ fn wrong_command_lines_are_refused_with_what_would_have_been_right() {
         ("simulate shot.json --out run --frames 3..1", &["'3..1'", "frame 3 is after the last, 1"]),
         ("simulate shot.json --out run --frames 1-3", &["\"1-3\" is not a frame number"]),
         ("simulate shot.json --out run --sizing fine", &["'fine'", "uniform, adaptive, view"]),
-        ("simulate shot.json --out run --threads 0", &["0 is not in 1.."]),
+        ("simulate shot.json --out run --threads 0", &["\"0\" is not a whole number from 1"]),
         ("simulate shot.json --out run --edge-length -0.1", &["-0.1 m is not a length above 0"]),
         ("simulate shot.json --out run --edge-length 0.1", &["needs --sizing uniform"]),
         ("simulate shot.json --out run --fps -24", &["-24 frames a second are not a rate above"]),
@@ -26,10 +26,10 @@ fn wrong_command_lines_are_refused_with_what_would_have_been_right() {
         ("simulate shot.json --out run --resume --overwrite", &["'--resume'", "'--overwrite'"]),
         ("simulate . --out run", &["\".\" is a folder", "a shot is a file"]),
         ("render shot.json --out a --view side", &["'side'", "shot, witness, both"]),
-        ("render shot.json --out a --every 0", &["0 is not in 1.."]),
-        ("render shot.json --out a --width 1", &["1 is not in 16..=16384"]),
+        ("render shot.json --out a --every 0", &["\"0\" is not a whole number from 1"]),
+        ("render shot.json --out a --width 1", &["\"1\" is not a whole number from 16 to 16384"]),
         ("render shot.json --out a --witness 1,2,3", &["'1,2,3'", "':'"]),
-        ("sheet shot.json --out a.png --columns 0", &["0 is not in 1..=64"]),
+        ("sheet shot.json --out a.png --columns 0", &["\"0\" is not a whole number from 1 to 64"]),
         ("sheet shot.json --out a.png --log xml", &["'xml'", "text, json"]),
     ] {
         shot.run(line).fails(2, parts);

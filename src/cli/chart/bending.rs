@@ -11,7 +11,7 @@ use serde_json::json;
 
 use super::super::failure::Failure;
 use super::super::interrupt::Interrupt;
-use super::super::output::{self, PendingFile, PendingFolder};
+use super::super::output::{self, PendingFolder};
 use crate::chart::BendingCandidate;
 use crate::dynamics::{Accuracy, LinearSolver, StepForces};
 use crate::scene::{BendingModel, PRESETS, Preset, SolverChoice};
@@ -43,9 +43,9 @@ const STEP: f64 = 5e-3;
 /// # Errors
 /// If the output cannot be written, or the user asks to stop.
 pub fn run(out: &Path) -> Result<()> {
-    let _folder = PendingFolder::create(out)?;
-    let json = PendingFile::create(&out.join("bending.json"))?;
-    let svg = PendingFile::create(&out.join("bending.svg"))?;
+    let folder = PendingFolder::create(out)?;
+    let json = folder.file("bending.json")?;
+    let svg = folder.file("bending.svg")?;
     let interrupt = Interrupt::install().context("cannot listen for signals")?;
     let rows = rows(&interrupt)?;
     let presets = presets();
@@ -120,7 +120,9 @@ fn rows(interrupt: &Interrupt) -> Result<Vec<Row>> {
             }
             let outcome = droop(trial);
             if let Err(error) = &outcome {
-                tracing::warn!("{trial:?}: {error}");
+                let (model, layout) = (name(trial.model), trial.layout.name());
+                let strip = format!("{layout} mesh of {} cells", trial.cells);
+                tracing::warn!("{model}, {strip}, L/h {}: {error}", trial.slenderness);
             }
             Ok((trial, outcome.ok()))
         })

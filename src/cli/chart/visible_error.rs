@@ -67,8 +67,8 @@ struct Runs {
 /// If the shot is bad, a simulation fails, an output cannot be written, or the user asks to stop.
 pub fn run(suite: Suite<'_>, log: LogArgs) -> Result<()> {
     let base = Shot::open(&with(suite.shot, Sizing::Adaptive, None, &[]))?;
-    let _folder = PendingFolder::create(suite.out)?;
-    let outputs = Outputs::create(suite.out)?;
+    let folder = PendingFolder::create(suite.out)?;
+    let outputs = Outputs::create(&folder)?;
     let interrupt = Interrupt::install().context("cannot listen for signals")?;
     let runs = runs(&suite, &base, &interrupt, log)?;
     let Suite { mut gpu, .. } = suite;
@@ -87,14 +87,13 @@ pub fn run(suite: Suite<'_>, log: LogArgs) -> Result<()> {
 }
 
 impl Outputs {
-    fn create(folder: &Path) -> Result<Self> {
-        let file = |name: &str| PendingFile::create(&folder.join(name));
+    fn create(folder: &PendingFolder) -> Result<Self> {
         Ok(Self {
-            csv: file("visible-error.csv")?,
-            json: file("visible-error.json")?,
-            error_svg: file("visible-error.svg")?,
-            speed_svg: file("speed-error.svg")?,
-            page: file("visible-error.png")?,
+            csv: folder.file("visible-error.csv")?,
+            json: folder.file("visible-error.json")?,
+            error_svg: folder.file("visible-error.svg")?,
+            speed_svg: folder.file("speed-error.svg")?,
+            page: folder.file("visible-error.png")?,
         })
     }
 
@@ -108,7 +107,7 @@ impl Outputs {
         self.speed_svg.write(drawn(study.speed_svg())?.as_bytes())?;
         match page {
             Some(page) => self.page.write_png(&page),
-            None => Ok(()),
+            None => self.page.leave_out(),
         }
     }
 }

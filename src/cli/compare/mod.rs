@@ -17,7 +17,7 @@ use super::args::{FrameRange, parse_frames};
 use super::failure::Failure;
 use super::log::LogArgs;
 use super::output::{self, PendingFile};
-use crate::compare::{Comparison, Tolerance};
+use crate::compare::{Comparison, Kind, Tolerance};
 use crate::render::AdapterChoice;
 use crate::run::RunReader;
 
@@ -104,7 +104,8 @@ pub fn run(args: &CompareArgs, log: LogArgs) -> Result<()> {
             false => bless::accept(&args.a, &args.b),
         };
     }
-    let tolerance = args.tolerance.as_deref().map(read_tolerance).transpose()?;
+    let kind = if are_runs { Kind::Runs } else { Kind::Pictures };
+    let tolerance = args.tolerance.as_deref().map(|path| read_tolerance(path, kind)).transpose()?;
     let outputs = Outputs::create(args)?;
     let (comparison, diff) = match are_runs {
         true => runs::compare(args, tolerance, log)?,
@@ -161,8 +162,17 @@ fn are_runs(args: &CompareArgs) -> Result<bool> {
     }
 }
 
-fn read_tolerance(path: &Path) -> Result<Tolerance> {
-    let read = || -> Result<Tolerance> { Ok(Tolerance::from_json(&fs::read_to_string(path)?)?) };
+/// The limits, with a warning of those that mean nothing for what is compared.
+fn read_tolerance(path: &Path, kind: Kind) -> Result<Tolerance> {
+    let read = || -> Result<Tolerance> {
+        let name = path.display().to_string();
+        let tolerance = Tolerance::from_json(&name, &fs::read_to_string(path)?)?;
+        for metric in tolerance.idle_limits(kind)? {
+            let (limited, things) = (metric.name(), kind.name());
+            tracing::warn!("{name:?} limits {limited}, which {things} do not have");
+        }
+        Ok(tolerance)
+    };
     read()
         .with_context(|| format!("cannot read the tolerance {:?}", path.display()))
         .map_err(bad_input)
@@ -187,8 +197,10 @@ impl Outputs {
     }
 
     fn write(self, comparison: &Comparison, diff: Option<&RgbaImage>) -> Result<()> {
-        if let (Some(file), Some(picture)) = (self.diff, diff) {
-            file.write_png(picture)?;
+        match (self.diff, diff) {
+            (Some(file), Some(picture)) => file.write_png(picture)?,
+            (Some(file), None) => file.leave_out()?,
+            (None, _) => {}
         }
         for (file, text) in [
             (self.json, Comparison::json as fn(&Comparison) -> String),

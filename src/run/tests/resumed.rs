@@ -245,17 +245,29 @@ fn another_processor_is_worth_a_warning() {
 fn what_is_no_run_is_not_resumed_and_stays_as_it_is() {
     let dir = tempfile::tempdir().unwrap();
     let path = |name: &str| dir.path().join(name);
-    fs::create_dir(path("empty")).unwrap();
     fs::create_dir(path("mine")).unwrap();
     fs::write(path("mine/run.lock"), "of something else").unwrap();
     fs::write(path("mine/notes.txt"), "x").unwrap();
     fs::write(path("file"), "x").unwrap();
-    for name in ["missing", "empty", "mine", "file"] {
+    for name in ["mine", "file"] {
         let error = resume(&path(name), 1).err().unwrap();
         assert!(matches!(error, RunError::NotARun { .. }), "{name}: {error}");
     }
-    assert_eq!(names(dir.path()), ["empty", "file", "mine"]);
+    assert_eq!(names(dir.path()), ["file", "mine"]);
     assert_eq!(names(&path("mine")), ["notes.txt", "run.lock"]);
+}
+
+#[test]
+fn where_there_is_nothing_yet_a_run_is_begun() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::create_dir(dir.path().join("empty")).unwrap();
+    for name in ["missing", "empty"] {
+        let path = dir.path().join(name);
+        let resumed = resume(&path, 1).unwrap();
+        assert!(matches!(resumed.remainder, Remainder::All), "{name}");
+        resumed.writer.finish().unwrap();
+        assert!(RunReader::open(&path).unwrap().frames().is_empty());
+    }
 }
 
 #[test]

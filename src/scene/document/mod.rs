@@ -7,6 +7,7 @@ mod set;
 mod typed;
 
 pub(super) use set::apply_overrides;
+pub(crate) use typed::from_json;
 
 use super::error::Place;
 

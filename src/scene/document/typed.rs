@@ -5,6 +5,14 @@ use serde::de::DeserializeOwned;
 use super::{Node, Value};
 use crate::scene::error::{LoadError, Place, Problem};
 
+/// A value of a type from JSON with comments.
+///
+/// # Errors
+/// As [`Node::parse`] and [`Node::deserialize`].
+pub(crate) fn from_json<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, LoadError> {
+    Node::parse(file, text)?.deserialize()
+}
+
 impl Node {
     /// The tree as a value of a type.
     ///
@@ -43,8 +51,9 @@ impl Node {
 }
 
 /// What the type names of this program are to whoever writes a shot.
-const KINDS: [(&str, &str); 7] = [
+const KINDS: [(&str, &str); 8] = [
     ("f64", "a number"),
+    ("u8", "a whole number from 0 to 255"),
     ("u32", "a whole number, 0 or more"),
     ("usize", "a whole number, 0 or more"),
     ("i64", "a whole number"),
@@ -53,17 +62,53 @@ const KINDS: [(&str, &str); 7] = [
     ("a boolean", "true or false"),
 ];
 
-/// A message that ends with what was expected, in words of the format.
+/// A message of the deserialiser in words of the format.
 fn in_words(message: &str) -> String {
-    let Some((found, expected)) = message.rsplit_once(", expected ") else {
-        return message.to_owned();
+    if let Some(name) = message.strip_prefix("missing field ") {
+        return format!("the key {} is missing", quoted(name));
+    }
+    let Some((found, expected)) = message.split_once(", expected ") else {
+        return quoted(message);
     };
-    let kind = match KINDS.iter().find(|(theirs, _)| *theirs == expected) {
-        Some((_, ours)) => ours,
-        None if expected.starts_with("struct ") => "an object",
-        None => expected,
+    let expected = match KINDS.iter().find(|(theirs, _)| *theirs == expected) {
+        Some((_, ours)) => (*ours).to_owned(),
+        None if expected.starts_with("struct ") => "an object".to_owned(),
+        None => quoted(&expected.replace("an array of length", "a list of")),
     };
-    format!("{found}, expected {kind}")
+    let [of_keys, of_values] = ["unknown field ", "unknown variant "];
+    if let Some(name) = found.strip_prefix(of_keys) {
+        return format!("unknown key {}, expected {expected}", quoted(name));
+    }
+    if let Some(name) = found.strip_prefix(of_values) {
+        return format!("unknown value {}, expected {expected}", quoted(name));
+    }
+    let found = match found.split_once(' ') {
+        Some(("invalid", rest)) => found_in_words(rest),
+        _ => quoted(found),
+    };
+    format!("expected {expected}, found {found}")
+}
+
+/// What was found, of "type: integer `3`", "value: string "a"", "length 2".
+fn found_in_words(found: &str) -> String {
+    if let Some(length) = found.strip_prefix("length ") {
+        return format!("one of {length}");
+    }
+    let value = found.split_once(": ").map_or(found, |(_, value)| value);
+    match value.split_once(' ') {
+        None if value == "map" => "an object".to_owned(),
+        None if value == "sequence" => "a list".to_owned(),
+        Some(("integer" | "floating" | "boolean", _)) => {
+            value.split('`').nth(1).unwrap_or(value).to_owned()
+        }
+        Some(("string", text)) => text.to_owned(),
+        _ => value.to_owned(),
+    }
+}
+
+/// Names between the quotation marks that all messages of this program have.
+fn quoted(text: &str) -> String {
+    text.replace('`', "\"")
 }
 
 /// The tree as one line of JSON, with the stretch of it that each key and value takes. Reading it
@@ -154,6 +199,27 @@ mod tests {
             let text = format!("{number:?}");
             assert_eq!(Node::parse("x", &text).unwrap().deserialize::<f64>().unwrap(), number);
         }
+    }
+
+    #[test]
+    fn type_errors_are_in_words_of_the_format() {
+        for (text, words) in [
+            (r#"{"size": "big", "names": []}"#, r#"expected a number, found "big""#),
+            (r#"{"size": {}, "names": []}"#, "expected a number, found an object"),
+            (r#"{"size": null, "names": []}"#, "expected a number, found null"),
+            (r#"{"size": 1, "names": 2.5}"#, "expected a list, found 2.5"),
+            (r#"{"size": 1, "names": true}"#, "expected a list, found true"),
+            (r#"{"size": 1, "names": [[]]}"#, "expected a string, found a list"),
+            (r#"{"size": 1}"#, r#"the key "names" is missing"#),
+            (r#"{"nams": 1}"#, r#"unknown key "nams", expected one of "size", "names", "corner""#),
+            (r#"{"size": 1, "names": [], "corner": [1]}"#, "expected a list of 2, found one of 1"),
+            (r#"{"size": 1, "names": [], "corner": 1}"#, "expected a list of 2, found 1"),
+        ] {
+            let error = from_json::<Sample>("x", text).unwrap_err();
+            assert!(error.problem.to_string().starts_with(words), "{text}: {error}");
+        }
+        let error = from_json::<[u8; 1]>("x", "[256]").unwrap_err().problem.to_string();
+        assert_eq!(error, "expected a whole number from 0 to 255, found 256");
     }
 
     #[test]

@@ -188,24 +188,7 @@ fn geometric_mean([a, b]: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-
-    const SHEET: IsotropicSheet = IsotropicSheet {
-        density: 0.2,
-        membrane_stiffness: 300.0,
-        poisson_ratio: 0.3,
-        bending_rigidity: 2e-5,
-    };
-
-    fn woven() -> ElasticFabric {
-        ElasticFabric {
-            membrane_stiffness: [400.0, 100.0],
-            bending_rigidity: [9e-6, 4e-6],
-            shear_stiffness: 20.0,
-            twist_rigidity: 1e-6,
-            ..SHEET.fabric()
-        }
-    }
+    use super::super::testing::{SHEET, woven};
 
     #[test]
     fn an_isotropic_sheet_bends_as_stiffly_in_all_directions() {

@@ -72,7 +72,27 @@ fn a_preset_is_a_fabric_by_name_which_factors_change() {
     assert_eq!(cotton.density, 2.0 * single.density);
     assert_eq!(cotton.bending_model, BendingModel::Quadratic);
     let error = load_fabric(r#"{"preset": "coton"}"#).unwrap_err().to_string();
-    assert!(error.contains("no preset \"coton\": did you mean \"cotton\"?"), "{error}");
+    assert!(error.contains("no preset \"coton\" among cotton, silk"), "{error}");
+    assert!(error.contains("rubber: did you mean \"cotton\"?"), "{error}");
+    let error = load_fabric(r#"{"preset": "cashmere"}"#).unwrap_err().to_string();
+    assert!(error.ends_with("leather, rubber"), "{error}");
+}
+
+#[test]
+fn only_a_solid_that_is_alike_in_all_directions_keeps_its_volume() {
+    let sheet = r#""density": 0.2, "thickness": 1e-3, "bending_rigidity": 1e-6"#;
+    for (modulus, poisson_ratio) in [
+        (r#""young_modulus": 1e6"#, 0.5),
+        (r#""young_modulus": [1e6, 2e6]"#, 0.7),
+        (r#""young_modulus": 1e6, "shear_stiffness": 20"#, 0.7),
+    ] {
+        let fabric =
+            format!(r#"{{"elastic": {{{sheet}, {modulus}, "poisson_ratio": {poisson_ratio}}}}}"#);
+        assert_eq!(elastic(&fabric).poisson_ratio, poisson_ratio);
+    }
+    let membrane = r#"{"elastic": {"density": 0.2, "membrane_stiffness": 100,
+        "bending_rigidity": 1e-6, "poisson_ratio": -0.9}}"#;
+    assert_eq!(elastic(membrane).poisson_ratio, -0.9);
 }
 
 #[test]
@@ -86,6 +106,12 @@ fn the_record_of_an_elastic_fabric_means_the_same() {
 #[test]
 fn bad_elastic_fabrics_are_answered_with_the_place() {
     let sheet = r#""density": 0.2, "membrane_stiffness": 100, "bending_rigidity": 1e-6"#;
+    let solid = |modulus: &str, poisson_ratio: &str| {
+        format!(
+            r#"{{"elastic": {{"density": 1, "young_modulus": {modulus}, "thickness": 1e-3,
+                "poisson_ratio": {poisson_ratio}}}}}"#
+        )
+    };
     let cases = [
         (r#"{}"#.to_owned(), "fabrics.f needs a file, a preset, an elastic sheet"),
         (r#"{"elastic": {}}"#.to_owned(), "f.elastic needs membrane_stiffness, or young_modulus"),
@@ -117,6 +143,12 @@ fn bad_elastic_fabrics_are_answered_with_the_place() {
             format!(r#"{{"elastic": {{{sheet}, "poisson_ratio": 1}}}}"#),
             "poisson_ratio is 1, but must be greater than -1 and less than 1",
         ),
+        (
+            solid("1e6", "0.6"),
+            "f.elastic.poisson_ratio is 0.6, but must be greater than -1 and at most 0.5",
+        ),
+        (solid("[1e6, 1e6]", "-1"), "poisson_ratio is -1, but must be greater than -1"),
+        (solid("[1e6, 2e6]", "1"), "poisson_ratio is 1, but must be greater than -1 and less"),
         (
             r#"{"elastic": {"membrane_stiffness": [1, 0]}}"#.to_owned(),
             "elastic.membrane_stiffness.1 is 0, but must be greater than 0",

@@ -5,6 +5,8 @@ mod elastic;
 mod load_tests;
 mod measured;
 mod preset;
+#[cfg(test)]
+pub mod testing;
 
 pub use elastic::{BendingModel, ElasticFabric, IsotropicSheet, PlateCompliance};
 pub(in crate::scene) use elastic::{

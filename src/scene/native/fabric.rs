@@ -83,7 +83,8 @@ pub struct ElasticFile {
     pub membrane_stiffness: Option<WarpWeft>,
     /// G h (N/m): shear force per length and angle (rad). Default E h / (2 (1 + nu)).
     pub shear_stiffness: Option<f64>,
-    /// nu, above -1 and below 1; the geometric mean of both directions'. Default 0.3.
+    /// nu, the geometric mean of both directions': above -1 and below 1; at most 0.5 for a
+    /// homogeneous sheet with one `young_modulus` and no `shear_stiffness` of its own. Default 0.3.
     pub poisson_ratio: Option<f64>,
     /// D (N m): moment per width and curvature of a sheet that stays flat across. Default
     /// E h^3 / (12 (1 - nu^2)), where `young_modulus` and `thickness` are given.

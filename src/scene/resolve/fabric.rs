@@ -5,12 +5,12 @@ use serde::Deserialize;
 use super::limit::check;
 use super::{Limit, Resolver};
 use crate::scene::document::{Node, Value};
-use crate::scene::error::{LoadError, Problem, nearest};
+use crate::scene::error::{LoadError, Problem, nearest, preset_names};
 use crate::scene::fabric::{
     homogeneous_bending_rigidity, isotropic_shear_stiffness, isotropic_twist_rigidity,
 };
 use crate::scene::native::{ElasticFile, FabricFile, WarpWeft};
-use crate::scene::{BendingModel, ElasticFabric, Fabric, MeasuredFabric, PRESETS, Preset};
+use crate::scene::{BendingModel, ElasticFabric, Fabric, MeasuredFabric, Preset};
 
 /// The tables of a material file.
 #[derive(Deserialize)]
@@ -24,6 +24,9 @@ const TABLE_NAMES: [&str; 3] = ["density", "stretching", "bending"];
 
 /// That of most solids that are neither rubber nor cork.
 const POISSON_RATIO: f64 = 0.3;
+
+/// That of a solid whose volume does not change.
+const SOLID_POISSON_RATIO_MAX: f64 = 0.5;
 
 impl Resolver<'_> {
     /// The fabric of a name that is written at `path`.
@@ -75,8 +78,8 @@ impl Resolver<'_> {
         }
         let Some(name) = &file.preset else { return Ok(None) };
         let Some(preset) = Preset::named(name) else {
-            let nearest = nearest(name, PRESETS.iter().map(|preset| preset.name));
-            let problem = Problem::UnknownName { kind: "preset", name: name.clone(), nearest };
+            let nearest = nearest(name, preset_names());
+            let problem = Problem::UnknownPreset { name: name.clone(), nearest };
             return Err(problem.at(self.document.place_of(&format!("{path}.preset"))));
         };
         Ok(Some(preset.fabric()))
@@ -176,12 +179,14 @@ impl Resolver<'_> {
             ("density", file.density, Limit::Positive),
             ("thickness", file.thickness, Limit::Positive),
             ("shear_stiffness", file.shear_stiffness, Limit::AtLeastZero),
-            ("poisson_ratio", file.poisson_ratio, Limit::Between(-1.0, 1.0)),
             ("twist_rigidity", file.twist_rigidity, Limit::AtLeastZero),
         ] {
             if let Some(value) = value {
                 self.check(&format!("{path}.{name}"), value, limit)?;
             }
+        }
+        if let Some(value) = file.poisson_ratio {
+            self.check(&format!("{path}.poisson_ratio"), value, poisson_ratio_limit(file))?;
         }
         for (name, value, limit) in [
             ("young_modulus", file.young_modulus, Limit::Positive),
@@ -236,6 +241,18 @@ impl Resolver<'_> {
         let tables: Tables = document.deserialize()?;
         check_tables(&document, "", &tables)?;
         Ok(tables)
+    }
+}
+
+/// A solid that is alike in all directions has the bulk modulus E / (3 (1 - 2 nu)), which is not
+/// negative: nu is at most 1/2. A weave, and a sheet of which only the membrane is known, need but
+/// store energy however they are stretched in their plane: nu^2 < 1.
+fn poisson_ratio_limit(file: &ElasticFile) -> Limit {
+    let is_alike = file.young_modulus.is_some_and(|e| e.values()[0] == e.values()[1]);
+    if is_alike && file.shear_stiffness.is_none() {
+        Limit::AboveUpTo(-1.0, SOLID_POISSON_RATIO_MAX)
+    } else {
+        Limit::Between(-1.0, 1.0)
     }
 }
 

@@ -14,6 +14,8 @@ pub(super) enum Limit {
     Share,
     /// Between two numbers, both left out.
     Between(f64, f64),
+    /// Above one number and up to another.
+    AboveUpTo(f64, f64),
     Above(f64),
     AtLeast(f64),
     AtMost(f64),
@@ -28,6 +30,7 @@ impl Limit {
             Limit::AtLeastZero => value >= 0.0 && value.is_finite(),
             Limit::Share => value > 0.0 && value <= 1.0,
             Limit::Between(low, high) => value > low && value < high,
+            Limit::AboveUpTo(low, high) => value > low && value <= high,
             Limit::Above(low) => value > low,
             Limit::AtLeast(low) => value >= low,
             Limit::AtMost(high) => value <= high,
@@ -42,6 +45,7 @@ impl Limit {
             Limit::AtLeastZero => "at least 0".into(),
             Limit::Share => "greater than 0 and at most 1".into(),
             Limit::Between(low, high) => format!("greater than {low} and less than {high}"),
+            Limit::AboveUpTo(low, high) => format!("greater than {low} and at most {high}"),
             Limit::Above(low) => format!("greater than {low}"),
             Limit::AtLeast(low) => format!("at least {low}"),
             Limit::AtMost(high) => format!("at most {high}"),
