@@ -4,18 +4,7 @@ use glam::DVec2;
 
 use super::stretch::{energy_density, stress};
 use crate::math::SymTensor2;
-use crate::scene::{ElasticFabric, IsotropicSheet};
-
-const SHEET: IsotropicSheet = IsotropicSheet {
-    density: 0.2,
-    membrane_stiffness: 300.0,
-    poisson_ratio: 0.3,
-    bending_rigidity: 2e-5,
-};
-
-fn woven() -> ElasticFabric {
-    ElasticFabric { membrane_stiffness: [400.0, 100.0], shear_stiffness: 20.0, ..SHEET.fabric() }
-}
+use crate::scene::testing::{SHEET, woven};
 
 #[test]
 fn a_strip_free_to_narrow_pulls_with_its_membrane_stiffness() {

@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::{StepState, System};
 pub use crate::math::Random;
 use crate::mesh::{Mesh, RawMesh};
 use crate::scene::{Fabric, MeasuredFabric};
@@ -58,4 +59,25 @@ pub fn fabric(density: f64, damping: f64) -> Fabric {
         damping,
         strain_limits: None,
     })
+}
+
+/// The largest component of f + dE/dx, as a share of the largest of the forces f (N); the potential
+/// energy E is differentiated by central differences of `step` (m) to either side.
+pub fn gradient_error(system: &System, state: &StepState, forces: &[DVec3], step: f64) -> f64 {
+    let scale = forces.iter().map(|f| f.length()).fold(0.0, f64::max);
+    let energy = |node: usize, axis: usize, step: f64| {
+        let mut moved = state.clone();
+        moved.position[node][axis] += step;
+        system.potential_energy(&moved)
+    };
+    let mut largest = 0.0f64;
+    for (node, force) in forces.iter().enumerate() {
+        for axis in 0..3 {
+            let slope = (energy(node, axis, step) - energy(node, axis, -step)) / (2.0 * step);
+            let error = (force[axis] + slope).abs() / scale;
+            assert!(error.is_finite(), "node {node} with {force} N");
+            largest = largest.max(error);
+        }
+    }
+    largest
 }

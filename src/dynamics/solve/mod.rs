@@ -39,6 +39,8 @@ pub struct LinearSolver {
     incomplete: IncompleteFactor,
     conjugate: ConjugateGradients,
     preconditioner: Preconditioner,
+    /// The complete factor is that of the matrix last solved, and no other has been announced.
+    is_factor_current: bool,
     failures: Failures,
     counts: SolverCounts,
 }
@@ -121,12 +123,14 @@ impl LinearSolver {
     /// the pattern, which depends on the pattern alone.
     pub fn forget(&mut self) {
         self.preconditioner = Preconditioner::None;
+        self.is_factor_current = false;
         self.failures = Failures::default();
     }
 
     /// Says that the next matrix is another one. Contacts alone make it so: they are far stiffer than
     /// cloth, and an incomplete factor with the wrong ones is worse than none.
     pub fn expect_new_matrix(&mut self) {
+        self.is_factor_current = false;
         if self.failures.incomplete < FAILURES_MAX {
             self.preconditioner = Preconditioner::None;
         }
@@ -144,7 +148,11 @@ impl LinearSolver {
         accuracy: Accuracy,
     ) -> Result<(), SolveError> {
         if self.choice == SolverChoice::Direct {
-            return self.solve_directly(matrix, b, x);
+            if !(self.is_factor_current && self.direct.has_pattern_of(matrix)) {
+                self.factorize(matrix)?;
+            }
+            self.solve_with_current_factor(b, x);
+            return Ok(());
         }
         match self.preconditioner {
             Preconditioner::None => {
@@ -216,12 +224,23 @@ impl LinearSolver {
         b: &[DVec3],
         x: &mut [DVec3],
     ) -> Result<(), SolveError> {
+        self.factorize(matrix)?;
+        self.solve_with_current_factor(b, x);
+        Ok(())
+    }
+
+    fn factorize(&mut self, matrix: &BlockMatrix) -> Result<(), SolveError> {
         self.preconditioner = Preconditioner::Needed;
+        self.is_factor_current = false;
         self.counts.factorisations += 1;
         self.direct.factorize(matrix)?;
         self.preconditioner = Preconditioner::Factor;
+        self.is_factor_current = true;
+        Ok(())
+    }
+
+    fn solve_with_current_factor(&mut self, b: &[DVec3], x: &mut [DVec3]) {
         x.copy_from_slice(b);
         self.direct.solve(x);
-        Ok(())
     }
 }

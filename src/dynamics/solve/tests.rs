@@ -106,6 +106,51 @@ fn a_factor_of_a_similar_matrix_is_used_again_and_one_of_another_is_not() {
 }
 
 #[test]
+fn a_matrix_is_factorised_once_however_often_it_is_solved_directly() {
+    let mut random = Random::new(39);
+    let mut matrix = sheet_of_springs(12, 1e3, &mut random);
+    let sides = [vector(144, &mut random), vector(144, &mut random)];
+    let direct = || {
+        let mut solver = LinearSolver::default();
+        solver.set_choice(SolverChoice::Direct);
+        solver
+    };
+    let solution = |solver: &mut LinearSolver, matrix: &BlockMatrix, b: &[DVec3]| {
+        let mut x = vec![DVec3::ZERO; 144];
+        solver.solve(matrix, b, &mut x, Accuracy::Fine).unwrap();
+        x
+    };
+    let mut solver = direct();
+    for b in &sides {
+        let anew = solution(&mut direct(), &matrix, b);
+        assert_eq!(solution(&mut solver, &matrix, b), anew, "to the bit");
+    }
+    assert_eq!(solver.counts().factorisations, 1);
+    matrix.add(matrix.pattern().diagonal_slot(7), DMat3::IDENTITY * 1e4);
+    solver.expect_new_matrix();
+    let anew = solution(&mut direct(), &matrix, &sides[0]);
+    assert_eq!(solution(&mut solver, &matrix, &sides[0]), anew);
+    assert_eq!(solver.counts().factorisations, 2);
+}
+
+#[test]
+fn after_a_failure_a_matrix_is_factorised_again() {
+    let mut random = Random::new(40);
+    let mut matrix = sheet_of_springs(6, 1.0, &mut random);
+    let b = vector(36, &mut random);
+    let mut solver = LinearSolver::default();
+    solver.set_choice(SolverChoice::Direct);
+    let mut solve = |matrix: &BlockMatrix| {
+        solver.solve(matrix, &b, &mut vec![DVec3::ZERO; 36], Accuracy::Fine).is_ok()
+    };
+    let slot = matrix.pattern().diagonal_slot(5);
+    matrix.add(slot, DMat3::IDENTITY * -100.0);
+    assert!(!solve(&matrix) && !solve(&matrix));
+    matrix.add(slot, DMat3::IDENTITY * 100.0);
+    assert!(solve(&matrix));
+}
+
+#[test]
 fn a_factor_of_another_pattern_is_not_used() {
     let mut random = Random::new(38);
     let mut solver = LinearSolver::default();
