@@ -92,3 +92,7 @@ pub enum CM03 {}
 /// Southwell: *On the Analysis of Experimental Observations in Problems of Elastic Stability*,
 /// Proceedings of the Royal Society A 1932.
 pub enum S32 {}
+
+/// Memon, Chaklie, Yesuf, Zhu: *Study on Effect of Leather Rigidity and Thickness on Drapability of
+/// Sheep Garment Leather*, Materials 14 (2021) 4553.
+pub enum MCYZ21 {}

@@ -25,9 +25,9 @@ pub(super) enum Finding {
     Closed(f64),
 }
 
-/// A contact has broken away if its friction exceeds mu N by this factor: below, the linearisation
-/// is corrected by the next step.
-const EXCESS_FACTOR: f64 = 1.15;
+/// A contact has broken away if its friction exceeds mu N by this factor: mu is met no better than
+/// to this.
+const EXCESS_FACTOR: f64 = 1.02;
 
 /// The step is solved again if the forces that should not be are at least this share of all normal
 /// forces: less does not change how the cloth moves, and a second solution costs as much as the

@@ -7,10 +7,10 @@ use super::outer;
 /// The most nodes a contact acts on: a node and a face, or two edges.
 pub const CONTACT_NODES: usize = 4;
 
-/// How much stiffer than inertia a sticking contact is: it may creep at 1/1000 of the speed that a
-/// free node would gain in a step (gravity, 5 ms: 0.05 mm/s). Ten times more gains nothing visible
-/// and costs digits in the factorisation.
-const STICKING_RATIO: f64 = 1e3;
+/// How much stiffer than inertia a sticking contact is: it may creep at 1/100,000 of the speed that
+/// its load would give a free node in a step. Stiff cloth loads light nodes with a thousand times
+/// their weight; with 1000 a strip pressed on a plane creeps off at half of mu.
+const STICKING_RATIO: f64 = 1e5;
 
 /// The same where the step is iterated, and slip found whatever the creep: light nodes under the load
 /// of stiff cloth, a thousand times what inertia asks, may not creep visibly either.
@@ -212,7 +212,7 @@ pub fn pressure_estimate(gap: f64, separation: f64, stiffness: f64, mass: f64, d
 }
 
 /// c = min( mu N / |v_t|, r m / h ) (N s/m), with v_t the slip velocity at the start of the step and
-/// r = 1e3.
+/// r = 1e5.
 ///
 /// A point that slips feels mu N against its motion; at the end of the step the force is c times the
 /// slip left, hence less while it brakes, never reversed. Below the slip at which both terms are

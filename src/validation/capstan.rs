@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec2, DVec3};
 
 use super::sheet::{Layout, Sheet};
+use super::stage::Step;
 use super::{Claim, Experiment, ExperimentError, fabric, stage};
 use crate::mesh::{Id, Mesh};
 use crate::scene::{Dynamics, Handle, Motion, MotionKey, Pose, Scene, SolverChoice, Surface};
@@ -34,17 +35,17 @@ const SPEED: f64 = 0.05;
 const DURATION: f64 = 1.6;
 
 pub fn experiments() -> Vec<Experiment> {
-    let of = |mu: f64| {
-        let claim = Claim::absolute(format!("capstan/mu-{mu}"), mu, 0.02);
-        Experiment::new(vec![claim], move || Ok(vec![slipping_friction(mu)?]))
+    let of = |(mu, step): (f64, Step)| {
+        let claim = Claim::absolute(format!("capstan/{}mu-{mu}", step.prefix()), mu, 0.02);
+        Experiment::new(vec![claim], move || Ok(vec![slipping_friction(mu, step)?]))
     };
-    [0.1, 0.3].map(of).into()
+    Step::ALL.into_iter().flat_map(|step| [0.1, 0.3].map(|mu| of((mu, step)))).collect()
 }
 
 /// ln(T2 / T1) / phi over half a turn, at the end of the pull.
-fn slipping_friction(mu: f64) -> Result<f64, ExperimentError> {
+fn slipping_friction(mu: f64, step: Step) -> Result<f64, ExperimentError> {
     let settings = SimSettings { sizing: SizingMode::Uniform { edge_length: None } };
-    let scene = Arc::new(scene(mu));
+    let scene = Arc::new(scene(mu, step));
     let (mut simulation, first) = Simulation::start(scene.clone(), settings)?;
     let starts = [0, 1].map(|end| end_height(&first.garments[0], end));
     let frames = (DURATION / scene.frame_time()) as u32;
@@ -78,7 +79,7 @@ fn end_nodes(mesh: &Mesh, end: usize) -> Vec<u32> {
 }
 
 /// The strip hangs over the drum with u = 0 on top; there is no gravity.
-fn scene(mu: f64) -> Scene {
+fn scene(mu: f64, step: Step) -> Scene {
     let half = half_length();
     let sheet = Sheet {
         origin: DVec2::new(-half, -0.5 * WIDTH),
@@ -109,7 +110,8 @@ fn scene(mu: f64) -> Scene {
     scene.gravity = DVec3::ZERO;
     scene.contact.friction_obstacle = mu;
     scene.contact.stiffness = 1e7;
-    scene.dynamics = Dynamics { iterations: 5, tolerance: 1e-5, solver: SolverChoice::Direct };
+    let iterated = Dynamics { iterations: 5, tolerance: 1e-5, solver: SolverChoice::Direct };
+    scene.dynamics = step.dynamics(iterated);
     scene.obstacles = vec![stage::obstacle(drum(), Pose::IDENTITY)];
     scene
 }

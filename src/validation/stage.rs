@@ -11,6 +11,35 @@ use crate::scene::{
     Surface, ViewSettings,
 };
 
+/// How an experiment solves its steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Once, as by default.
+    Linearised,
+    /// Until nothing changes any more.
+    Iterated,
+}
+
+impl Step {
+    pub const ALL: [Step; 2] = [Step::Iterated, Step::Linearised];
+
+    /// For the names of claims.
+    pub fn prefix(self) -> &'static str {
+        match self {
+            Step::Linearised => "linearised/",
+            Step::Iterated => "",
+        }
+    }
+
+    /// The settings of the experiment where it iterates.
+    pub fn dynamics(self, iterated: Dynamics) -> Dynamics {
+        match self {
+            Step::Linearised => Dynamics::default(),
+            Step::Iterated => iterated,
+        }
+    }
+}
+
 /// In a vacuum, without obstacles: 5 ms a step.
 pub fn scene(garments: Vec<Garment>) -> Scene {
     Scene {

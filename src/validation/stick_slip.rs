@@ -10,6 +10,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::sheet::{Layout, Sheet};
+use super::stage::Step;
 use super::{Claim, Experiment, ExperimentError, fabric, stage};
 use crate::mesh::{Id, Mesh};
 use crate::scene::{
@@ -56,11 +57,11 @@ const DURATION: f64 = 4.0;
 const SLIP: f64 = 0.01;
 
 pub fn experiments() -> Vec<Experiment> {
-    let of = |mu: f64| {
-        let claim = Claim::absolute(format!("stick-slip/mu-{mu}"), mu, 0.02);
-        Experiment::new(vec![claim], move || Ok(vec![threshold(slipping(mu)?)]))
+    let of = |(mu, step): (f64, Step)| {
+        let claim = Claim::absolute(format!("stick-slip/{}mu-{mu}", step.prefix()), mu, 0.02);
+        Experiment::new(vec![claim], move || Ok(vec![threshold(slipping(mu, step)?)]))
     };
-    [0.1, 0.2, 0.3].map(of).into()
+    Step::ALL.into_iter().flat_map(|step| [0.1, 0.2, 0.3].map(|mu| of((mu, step)))).collect()
 }
 
 /// mu*(eps), between the table's entries.
@@ -71,9 +72,9 @@ fn threshold(eps: f64) -> f64 {
 }
 
 /// The eps at which the foot slips.
-fn slipping(mu: f64) -> Result<f64, ExperimentError> {
+fn slipping(mu: f64, step: Step) -> Result<f64, ExperimentError> {
     let settings = SimSettings { sizing: SizingMode::Uniform { edge_length: None } };
-    let scene = Arc::new(scene(mu));
+    let scene = Arc::new(scene(mu, step));
     let (mut simulation, first) = Simulation::start(scene.clone(), settings)?;
     let start = foot(&first.garments[0]);
     let frames = (DURATION / scene.frame_time()) as u32;
@@ -112,7 +113,7 @@ fn mean(mesh: &Mesh, is_chosen: impl Fn(DVec2) -> bool) -> DVec3 {
 }
 
 /// The clamp, half way between two rows of nodes, comes down; there is no gravity.
-fn scene(mu: f64) -> Scene {
+fn scene(mu: f64, step: Step) -> Scene {
     let sheet = Sheet {
         origin: DVec2::new(-0.5 * CELL, -0.5 * WIDTH),
         size: DVec2::new(LENGTH + 0.5 * CELL, WIDTH),
@@ -138,7 +139,8 @@ fn scene(mu: f64) -> Scene {
     scene.contact.friction_obstacle = mu;
     // The foot carries the push of the whole strip.
     scene.contact.stiffness = 1e8;
-    scene.dynamics = Dynamics { iterations: 30, tolerance: 1e-6, solver: SolverChoice::Direct };
+    let iterated = Dynamics { iterations: 30, tolerance: 1e-6, solver: SolverChoice::Direct };
+    scene.dynamics = step.dynamics(iterated);
     let half = DVec3::new(2.0, 2.0, 0.5);
     let below = Pose { translation: DVec3::NEG_Z * half.z, ..Pose::IDENTITY };
     scene.obstacles = vec![stage::obstacle(stage::block(half), below)];
