@@ -59,13 +59,17 @@ impl Sweep {
         let plane = self.plane();
         let way = self.closing_way_max(features);
         let mut time = 0.0;
-        let mut weights = [0.0; 4];
+        let mut nearest_yet = (f64::INFINITY, FirstTouch { time, weights: [0.0; 4] });
         for _ in 0..ADVANCES_MAX {
             time += plane.after(time).earliest_zero()? * (1.0 - time);
             let near = nearest(features, self.at(time));
-            weights = near.weights;
+            let here = FirstTouch { time, weights: near.weights };
             if near.distance <= tolerance {
-                return Some(FirstTouch { time, weights });
+                return Some(here);
+            }
+            // What is no number is kept, and shows.
+            if !(near.distance >= nearest_yet.0) {
+                nearest_yet = (near.distance, here);
             }
             // Half the tolerance is kept back for rounding.
             time += (near.distance - 0.5 * tolerance) / way;
@@ -73,7 +77,8 @@ impl Sweep {
                 return None;
             }
         }
-        Some(FirstTouch { time: time.min(1.0), weights })
+        // The advances add up to less than the whole, so the least of them was under a thousandth.
+        Some(nearest_yet.1)
     }
 
     /// Where the points are at a share of the motion.

@@ -33,4 +33,6 @@ pub use resolve::{Depth, MovedCloth, Resolution, resolve, trapped_nodes};
 pub use shape::{Nearest, Shape};
 
 #[cfg(test)]
+mod judge;
+#[cfg(test)]
 mod tests;
