@@ -46,6 +46,12 @@ pub struct FirstTouch {
 /// thousandth of their way run out of them.
 const ADVANCES_MAX: usize = 1000;
 
+/// No tolerance is finer than this share of the size of the features. How far apart two edges are is
+/// told to about the root of an epsilon of their length, 1.5e-8, where they are nearly parallel: so
+/// small is the sine of the angle below which the difference of products that holds its square is all
+/// rounding, and so far off may the nearest points then be. Seven times that leaves room.
+const TOLERANCE_OF_SIZE_MIN: f64 = 1e-7;
+
 impl Sweep {
     /// When the features first come as close as the tolerance (m), if they touch; `None` is
     /// certain. Features which pass one another closer than the tolerance, or come to lie so, may
@@ -53,8 +59,8 @@ impl Sweep {
     ///
     /// Features that touch at the start touch at time 0, wherever they go. Without relative motion
     /// they touch at time 0 or never. Edges may be parallel, edges and triangles without extent,
-    /// all points in one plane throughout. The tolerance should be at least 1e-7 of the size of the
-    /// features, for so much may rounding hide where edges are parallel.
+    /// all points in one plane throughout. The tolerance is never less than 1e-7 of the size the
+    /// features have at the time, for so much may rounding hide where edges are parallel.
     pub fn first_touch(&self, features: Features, tolerance: f64) -> Option<FirstTouch> {
         let plane = self.plane();
         let way = self.closing_way_max(features);
@@ -62,7 +68,9 @@ impl Sweep {
         let mut nearest_yet = (f64::INFINITY, FirstTouch { time, weights: [0.0; 4] });
         for _ in 0..ADVANCES_MAX {
             time += plane.after(time).earliest_zero()? * (1.0 - time);
-            let near = nearest(features, self.at(time));
+            let points = self.at(time);
+            let near = nearest(features, points);
+            let tolerance = tolerance.max(TOLERANCE_OF_SIZE_MIN * size(features, points));
             let here = FirstTouch { time, weights: near.weights };
             if near.distance <= tolerance {
                 return Some(here);
@@ -104,6 +112,17 @@ impl Sweep {
         };
         squared.sqrt()
     }
+}
+
+/// The longest edge of the features (m).
+fn size(features: Features, [a, b, c, d]: [DVec3; 4]) -> f64 {
+    let squared = match features {
+        Features::VertexFace => {
+            b.distance_squared(c).max(c.distance_squared(d)).max(d.distance_squared(b))
+        }
+        Features::EdgeEdge => a.distance_squared(b).max(c.distance_squared(d)),
+    };
+    squared.sqrt()
 }
 
 /// How far apart two features are, and between which of their points.

@@ -198,6 +198,29 @@ proptest! {
     }
 
     #[test]
+    fn a_tolerance_finer_than_rounding_misses_nothing(
+        a in [vector(), vector()], tilt in vector(), angle in -16.0..-3.0f64, way in vector(),
+        time in 0.01..0.99f64, size in -3.0..4.0f64, tolerance in -20.0..-9.0f64,
+    ) {
+        // Two nearly parallel edges whose middles meet at `time`.
+        let (size, tolerance) = (10f64.powf(size), 10f64.powf(size + tolerance));
+        let middle = a[0].midpoint(a[1]);
+        let second = a.map(|p| p + (p - middle).dot(a[1] - a[0]) * tilt * 10f64.powf(angle));
+        let points = [a[0], a[1], second[0], second[1]].map(|p| p * size);
+        let ways = [DVec3::ZERO, DVec3::ZERO, way, way].map(|w| w * size);
+        let sweep = Sweep {
+            start: [0, 1, 2, 3].map(|k| points[k] - ways[k] * time),
+            end: [0, 1, 2, 3].map(|k| points[k] + ways[k] * (1.0 - time)),
+        };
+        let touch = sweep.first_touch(Features::EdgeEdge, tolerance);
+        prop_assert!(touch.is_some_and(|t| t.time <= time + 1e-12), "{touch:?}, not {time}");
+        let FirstTouch { time, weights } = touch.unwrap();
+        let at = sweep.at(time);
+        let apart = (0..4).map(|k| at[k] * weights[k]).sum::<DVec3>().length();
+        prop_assert!(apart <= 1e-6 * size, "{apart} m apart");
+    }
+
+    #[test]
     fn features_without_extent_are_points(p in vector(), q in vector(), time in 0.0..1.0f64) {
         let way = q - p;
         // Three or two corners in one place, which the first feature runs into.
