@@ -165,6 +165,14 @@ impl ObstacleMotion {
         self.end.transform_point(own + way)
     }
 
+    /// A point that goes from one place to another ends no farther from where it would be
+    /// [`carried`](Self::carried) (m): for a rigid obstacle its very distance from there, for others a
+    /// bound that does not search the surface.
+    pub fn distance_from_carried_max(&self, point_at_start: DVec3, point_at_end: DVec3) -> f64 {
+        let own = self.own_from_start.transform_point3(point_at_start);
+        point_at_end.distance(self.end.transform_point(own)) + self.own_way_max()
+    }
+
     /// Whether a point is inside at the end of the step.
     pub fn contains_at_end(&self, point: DVec3) -> bool {
         self.contains(At::End, point)

@@ -152,13 +152,23 @@ fn exit(
     depth: Depth,
 ) -> Option<Nearest> {
     let x = cloth.position[node];
-    let carried = obstacle.carried(cloth.position_at_start[node]);
+    let start = cloth.position_at_start[node];
     let reach = match depth {
-        Depth::OfTheStep => settings.thickness + x.distance(carried),
+        Depth::OfTheStep => settings.thickness + obstacle.distance_from_carried_max(start, x),
         Depth::Any => f64::INFINITY,
     };
     let nearest = known.nearest(obstacle, At::End, x, reach)?;
-    if nearest.signed_distance >= -settings.thickness || obstacle.contains_at_end(carried) {
+    if nearest.signed_distance >= -settings.thickness {
+        return Some(nearest);
+    }
+    // Only few come so deep: on a surface that deforms it takes a search to tell where they are
+    // carried.
+    let carried = obstacle.carried(start);
+    let is_too_deep = -nearest.signed_distance > settings.thickness + x.distance(carried);
+    if depth == Depth::OfTheStep && is_too_deep {
+        return None;
+    }
+    if obstacle.contains_at_end(carried) {
         return Some(nearest);
     }
     let (mut outside, mut inside) = (carried, x);

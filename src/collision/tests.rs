@@ -3,6 +3,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::*;
+use crate::math::Random;
 use crate::remesh::EditGuard;
 use crate::scene::{Contact, Pose, Surface};
 
@@ -246,4 +247,26 @@ fn the_velocity_of_a_point_of_the_surface_is_that_of_what_moves_with_the_obstacl
     let near = obstacle.nearest_at_start(DVec3::new(1.5, 0.3, -0.2), 1.0).unwrap();
     let by_triangle = obstacle.surface_velocity(near.triangle, near.barycentric);
     assert!((obstacle.velocity_at(near.point) - by_triangle).length() < 1e-9);
+}
+
+#[test]
+fn how_far_a_point_is_from_where_it_is_carried_is_bounded_without_a_search() {
+    let mut random = Random::new(3);
+    let turn = Pose { rotation: DQuat::from_rotation_z(0.4), translation: DVec3::X, scale: 1.5 };
+    let shape = Arc::new(Shape::new(&cube()));
+    let bent = shape.positions().iter().map(|&p| p + random.vector() * 0.3).collect();
+    let poses = [Pose::IDENTITY, turn];
+    let rigid = ObstacleMotion::new(shape.clone(), poses[0], poses[1], 0.005);
+    let bent = Arc::new(shape.moved(bent));
+    let deforming = ObstacleMotion::deforming([shape, bent], poses, 0.005);
+    let mut closest: f64 = f64::INFINITY;
+    for _ in 0..1000 {
+        let (start, end) = (random.vector() * 2.0, random.vector() * 2.0);
+        let away = |o: &ObstacleMotion| end.distance(o.carried(start));
+        let bound = |o: &ObstacleMotion| o.distance_from_carried_max(start, end);
+        assert_eq!(away(&rigid).to_bits(), bound(&rigid).to_bits());
+        assert!(away(&deforming) <= bound(&deforming));
+        closest = closest.min(bound(&deforming) - away(&deforming));
+    }
+    assert!(closest < 0.3, "the bound is loose: {closest} m");
 }
