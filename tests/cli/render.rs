@@ -44,6 +44,36 @@ fn a_run_and_its_shot_give_the_same_picture() {
 }
 
 #[test]
+fn a_solid_that_deforms_is_drawn_as_it_is_in_the_frame() {
+    let shot = SmallShot::new();
+    // Out of reach of the cloth, so that this is the same whatever the solid does.
+    let aside = "\"transform\": {\"translate\": [-0.4, -0.8, -0.5]}, \"motion\"";
+    shot.replace("shot.json", "\"motion\": \"rise\"}]", &format!("{aside}: \"rise\"}}]"));
+    let still = shot.text("solid.obj");
+    shot.run("simulate shot.json --out still").succeeds();
+    let rigid = shot.text("shot.json");
+    shot.deform_the_solid();
+    shot.run("simulate shot.json --out deforming").succeeds();
+    // The shape of frame 4 as a solid of its own.
+    let frame = shot.reader("deforming").frame(4).unwrap();
+    let points = &frame.obstacle_points[&0];
+    let vertices = points.iter().map(|p| format!("v {:?} {:?} {:?}\n", p.x, p.y, p.z));
+    let faces = still.lines().filter(|line| line.starts_with('f'));
+    let faces = faces.map(|line| format!("{line}\n"));
+    shot.write("solid.obj", &vertices.chain(faces).collect::<String>());
+    shot.write("shot.json", &rigid);
+    shot.run("simulate shot.json --out frozen").succeeds();
+    let picture = |run: &str| {
+        shot.run(&format!("render {run} --out {run}.p --frames 4..4 --view shot")).succeeds();
+        image::open(shot.path(&format!("{run}.p/0004.shot.png"))).unwrap().to_rgb8()
+    };
+    let [deforming, frozen, still] = ["deforming", "frozen", "still"].map(picture);
+    assert!(deforming == frozen, "it is not drawn as it is");
+    let differing = deforming.pixels().zip(still.pixels()).filter(|(a, b)| a != b).count();
+    assert!(differing > 100, "only {differing} pixels show that it deforms");
+}
+
+#[test]
 fn another_camera_looks_at_a_run_if_its_frame_rate_agrees() {
     let shot = SmallShot::new();
     shot.run("simulate shot.json --out run --frames 1").succeeds();

@@ -74,6 +74,25 @@ fn killed_again_and_again_it_goes_on_with_other_threads_to_the_same_bits() {
 }
 
 #[test]
+fn with_a_solid_that_deforms_it_goes_on_to_the_same_bits() {
+    let shot = SmallShot::new();
+    shot.deform_the_solid();
+    shot.run(&format!("simulate shot.json --out straight {LIVELY}")).succeeds();
+    let points = |frame: u32| shot.reader("straight").frame(frame).unwrap().obstacle_points;
+    assert!(points(2) != points(1) && points(9) != points(8), "nothing deforms");
+    let frames = (1..=9).map(|n| shot.reader("straight").frame(n).unwrap().report.counts);
+    assert!(frames.map(|counts| counts.contacts).sum::<u64>() > 0, "nothing touches");
+    let line = format!("simulate shot.json --out run {LIVELY}");
+    for (threads, file) in [(1, "frames/000002.sfr"), (7, "frames/000006.sfr.partial")] {
+        let resume = if threads == 1 { "" } else { "--resume" };
+        let line = format!("{line} --threads {threads} {resume}");
+        kill_when_there(&shot, &line, &format!("run/{file}"), Duration::ZERO);
+    }
+    shot.run(&format!("{line} --threads 2 --resume")).succeeds();
+    assert_same_run(&shot, "run", "straight");
+}
+
+#[test]
 fn damaged_frames_are_named_and_computed_again() {
     let shot = SmallShot::new();
     shot.run("simulate shot.json --out straight").succeeds();

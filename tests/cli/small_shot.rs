@@ -125,6 +125,14 @@ impl SmallShot {
         );
     }
 
+    /// Lets the solid's points move by themselves as well: it grows taller within half a second.
+    pub fn deform_the_solid(&self) {
+        self.write("tall.obj", &SOLID.replace("v 0.5 0.5 0.9", "v 0.6 0.4 1.3"));
+        let meshes = "\"meshes\": [{\"time\": 0, \"mesh\": \"solid.obj\"},
+            {\"time\": 0.5, \"mesh\": \"tall.obj\"}]";
+        self.replace("shot.json", "\"mesh\": \"solid.obj\"", meshes);
+    }
+
     pub fn run(&self, line: &str) -> Outcome {
         program::run(self.folder(), line)
     }
