@@ -11,6 +11,7 @@ use glam::DVec3;
 
 use super::continuous::{Features, Sweep};
 use super::motion::ObstacleMotion;
+use super::shape::Shape;
 use super::topology::Edge;
 
 /// What may touch what.
@@ -40,8 +41,6 @@ pub(super) struct Impact {
     pub surface_point: DVec3,
     /// Of the obstacle's touching point (m/s).
     pub surface_velocity: DVec3,
-    /// The way of the obstacle's touching point in its own space (m, own space).
-    pub own_way: DVec3,
 }
 
 /// Sine of the angle below which edges count as parallel: their common normal is then taken from
@@ -65,10 +64,21 @@ impl Pair {
         let split = self.weights_of_cloth(touch.weights);
         let sum = |points: [DVec3; 4], w: [f64; 4]| (0..4).map(|k| points[k] * w[k]).sum::<DVec3>();
         let offset = |points: [DVec3; 4]| sum(points, split.both);
-        let normal = self.normal(obstacle, sweep.at(touch.time), offset(sweep.start))?;
-        let (height_before, height_after) =
-            (offset(sweep.start).dot(normal), offset(sweep.end).dot(normal));
-        if height_before < -tolerance || height_after > tolerance {
+        let offsets = [sweep.start, sweep.end].map(offset);
+        let shapes = [obstacle.shape_at_start(), obstacle.shape_at_end()];
+        let shape = shapes[usize::from(touch.time > 0.5)];
+        let normal = self.normal(shape, sweep.at(touch.time), offsets[0])?;
+        let [mut before, mut after] = offsets.map(|offset| offset.dot(normal));
+        if !obstacle.is_rigid() {
+            // A triangle that turns by itself has other normals at the ends of the step: what is
+            // outside there by one of them may have been, and what is inside by one of them is.
+            let height = |k: usize, points: [DVec3; 4]| {
+                self.normal(shapes[k], points, offsets[0]).map(|n| offsets[k].dot(n))
+            };
+            before = height(0, sweep.start).map_or(before, |h| h.max(before));
+            after = height(1, sweep.end).map_or(after, |h| h.min(after));
+        }
+        if before < -tolerance || after > tolerance {
             return None;
         }
         let own = [sweep.start, sweep.end].map(|points| sum(points, split.obstacle));
@@ -83,8 +93,22 @@ impl Pair {
             normal: obstacle.end.rotation * normal,
             surface_point,
             surface_velocity,
-            own_way: own[1] - own[0],
         })
+    }
+
+    /// The corners of the obstacle's feature; of an edge, those of the triangles at it.
+    pub fn corners(self, obstacle: &ObstacleMotion) -> Vec<usize> {
+        let corners = |t: u32| obstacle.shape_at_start().topology().triangles()[t as usize];
+        match self {
+            Self::NodeTriangle { triangle, .. } => corners(triangle).map(|c| c as usize).to_vec(),
+            Self::FaceCorner { corner, .. } => vec![corner],
+            Self::EdgeEdge { edge, .. } => {
+                let Edge { corners: [a, b], first, second } = edge_of(obstacle, edge);
+                let opposite =
+                    [Some(first), second].into_iter().flatten().map(|side| side.opposite);
+                [a, b].into_iter().chain(opposite).map(|c| c as usize).collect()
+            }
+        }
     }
 
     fn sweep(self, obstacle: &ObstacleMotion, seen: Seen<'_>) -> (Features, Sweep) {
@@ -132,13 +156,7 @@ impl Pair {
 
     /// Unit, out of the obstacle, in its own space; `at` is where the points are when they touch.
     /// `None` if nothing tells.
-    fn normal(
-        self,
-        obstacle: &ObstacleMotion,
-        at: [DVec3; 4],
-        offset_before: DVec3,
-    ) -> Option<DVec3> {
-        let shape = obstacle.shape_at_start();
+    fn normal(self, shape: &Shape, at: [DVec3; 4], offset_before: DVec3) -> Option<DVec3> {
         let across = (at[2] - at[1]).cross(at[3] - at[1]).try_normalize();
         let on_side_of = |n: DVec3, outward: DVec3| if n.dot(outward) < 0.0 { -n } else { n };
         match self {

@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::continuous::Features;
 
 /// Moments of the motion that are looked at.
-const SAMPLES: u32 = 1000;
+const SAMPLES: u32 = 300;
 
 /// As shares of the features: so far within both a touch must be to count.
 const ROOM: f64 = 1e-6;
@@ -51,6 +51,12 @@ pub fn passages(features: Features, ends: Ends) -> Vec<Passage> {
         above_before = above;
     }
     found
+}
+
+/// Whether the features have changed sides at the end, whatever they did on their way.
+pub fn have_passed(features: Features, ends: Ends) -> bool {
+    let ways = passages(features, ends).into_iter().map(|p| if p.is_upwards { 1 } else { -1 });
+    ways.sum::<i32>() != 0
 }
 
 /// The first sample at which features that move within one plane overlap.

@@ -5,6 +5,7 @@
 //! obstacles near edges become contacts. After it, whatever would have passed through a surface on
 //! its way, points through triangles or edges through edges, is stopped.
 
+mod carry;
 mod continuous;
 mod face_tree;
 mod group;

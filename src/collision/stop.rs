@@ -2,11 +2,13 @@
 //!
 //! In rounds: all impacts are found, and resolved one by one in order of time as inelastic impacts
 //! with friction ([`BFA02`](crate::papers::BFA02)), which moves nodes and may cause other impacts. What
-//! is left after some rounds goes along with the obstacle: seen from there it rests, and what rests
-//! meets nothing. More and more nodes do, until nothing passes.
+//! is left after some rounds goes along with the obstacle, see [`carry`](super::carry): more and more
+//! nodes do, until nothing passes. What then still does is counted.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
+use super::carry::Carriers;
 use super::face_tree::FaceTree;
 use super::impact::{Impact, Pair};
 use super::motion::ObstacleMotion;
@@ -21,15 +23,16 @@ const TOUCH_IN_THICKNESSES: f64 = 1e-3;
 /// Rounds of impacts one by one. A sheet on a needle, a box or a sphere needs two or three.
 const IMPACT_ROUNDS: usize = 8;
 
-/// Rounds in which what is left goes along. Each takes in at least one more node; where it takes
-/// more rounds, the cloth is caught between obstacles.
+/// Rounds in which what is left goes along. Each takes in at least one more node, or moves a group
+/// farther out; where it takes more rounds, the cloth is caught.
 const CARRY_ROUNDS: usize = 24;
 
 /// What stopping did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Stops {
     pub impacts: usize,
-    /// Features that still pass through an obstacle, between others that leave no way out.
+    /// Features that still pass through an obstacle, or faces that one cuts: caught between obstacles,
+    /// or between parts of one.
     pub unresolved: usize,
 }
 
@@ -41,27 +44,53 @@ pub(super) fn stop_at_obstacles(
     memory: &NearMemory,
     settings: &Contact,
 ) -> Stops {
+    stop_in_rounds(cloth, tree, obstacles, memory, settings, [IMPACT_ROUNDS, CARRY_ROUNDS])
+}
+
+/// With so many rounds of impacts one by one, and so many of going along.
+pub(super) fn stop_in_rounds(
+    cloth: &mut MovedCloth<'_>,
+    tree: &FaceTree,
+    obstacles: &[ObstacleMotion],
+    memory: &NearMemory,
+    settings: &Contact,
+    [impact_rounds, carry_rounds]: [usize; 2],
+) -> Stops {
     let mut stops = Stops::default();
     let mut moved: Option<Vec<bool>> = None;
-    let mut carriers = vec![None; cloth.position.len()];
-    for round in 0..IMPACT_ROUNDS + CARRY_ROUNDS {
+    let mut carriers = Carriers::new(cloth.position.len());
+    for round in 0..impact_rounds + carry_rounds {
         let found = found_impacts(cloth, tree, obstacles, memory, settings, moved.as_deref());
-        stops.unresolved = found.len();
         if found.is_empty() {
-            break;
+            stops.unresolved = cut_faces(cloth, obstacles);
+            return stops;
         }
         let mut moves = vec![false; cloth.position.len()];
-        stops.impacts += if round < IMPACT_ROUNDS {
+        stops.impacts += if round < impact_rounds {
             resolve_in_order(cloth, obstacles, settings, &found, &mut moves)
         } else {
-            carry_along(cloth, obstacles, &found, &mut carriers, &mut moves)
+            carriers.carry(cloth, obstacles, settings, &found, &mut moves)
         };
         if !moves.contains(&true) {
             break;
         }
-        moved = Some(moves);
+        // Who goes along already may be left with an impact and not move.
+        moved = (round < impact_rounds).then_some(moves);
     }
+    let left = found_impacts(cloth, tree, obstacles, memory, settings, None).len();
+    stops.unresolved = left.max(cut_faces(cloth, obstacles));
     stops
+}
+
+/// Faces that an obstacle which moves its points by itself cuts at the end of the step. Where it
+/// folds into itself or turns inside out, outside and inside change places, and no impact tells.
+fn cut_faces(cloth: &MovedCloth<'_>, obstacles: &[ObstacleMotion]) -> usize {
+    let of = |obstacle: &ObstacleMotion| {
+        let corners = |face: &[u32; 3]| face.map(|n| cloth.position[n as usize]);
+        let is_cut = |face: &&[u32; 3]| obstacle.is_crossed_at_end(corners(face));
+        cloth.faces.par_iter().with_min_len(64).filter(is_cut).count()
+    };
+    obstacles.iter().filter(|obstacle| !obstacle.is_rigid()).map(of).sum()
 }
 
 /// In order of time, then of obstacles and faces.
@@ -107,7 +136,7 @@ fn resolve_in_order(
 }
 
 /// The impact of a pair as the cloth is now.
-fn again(
+pub(super) fn again(
     cloth: &MovedCloth<'_>,
     obstacles: &[ObstacleMotion],
     settings: &Contact,
@@ -142,35 +171,6 @@ fn resolve_one(cloth: &mut MovedCloth<'_>, settings: &Contact, impact: &Impact) 
         cloth.position[node] += lift * share;
         cloth.velocity[node] += change * share;
     }
-}
-
-/// The nodes of impacts go along with the obstacle from where they were at the start; returns how
-/// many did not yet.
-fn carry_along(
-    cloth: &mut MovedCloth<'_>,
-    obstacles: &[ObstacleMotion],
-    found: &[Impact],
-    carriers: &mut [Option<usize>],
-    moves: &mut [bool],
-) -> usize {
-    let mut count = 0;
-    for impact in found {
-        let obstacle = &obstacles[impact.obstacle];
-        // All nodes of the feature, whatever their weight.
-        for (node, _) in impact.weights {
-            if carriers[node] == Some(impact.obstacle) {
-                continue;
-            }
-            carriers[node] = Some(impact.obstacle);
-            let start = cloth.position_at_start[node];
-            let own = obstacle.point_in_own_at_start(start) + impact.own_way;
-            cloth.position[node] = obstacle.end.transform_point(own);
-            cloth.velocity[node] = (cloth.position[node] - start) / obstacle.duration;
-            moves[node] = true;
-            count += 1;
-        }
-    }
-    count
 }
 
 fn nodes_of(impact: &Impact) -> impl Iterator<Item = usize> + use<> {
