@@ -96,3 +96,6 @@ pub enum S32 {}
 /// Memon, Chaklie, Yesuf, Zhu: *Study on Effect of Leather Rigidity and Thickness on Drapability of
 /// Sheep Garment Leather*, Materials 14 (2021) 4553.
 pub enum MCYZ21 {}
+
+/// Harmon, Vouga, Tamstorf, Grinspun: *Robust Treatment of Simultaneous Collisions*, ACM TOG 2008.
+pub enum HVTG08 {}

@@ -161,11 +161,12 @@ fn stopped(patch: &Patch, obstacle: &ObstacleMotion, rounds: [usize; 2]) -> (Vec
         velocity: &mut velocity,
         position_at_start: &patch.start,
         area: &vec![1e-4; nodes],
+        mass: &vec![1e-5; nodes],
         faces: &patch.faces,
     };
     let memory = NearMemory::new(nodes, 1);
     let obstacles = std::slice::from_ref(obstacle);
-    let stops = stop_in_rounds(&mut cloth, &tree, obstacles, &memory, &SETTINGS, rounds);
+    let stops = stop_in_rounds(&mut cloth, &tree, obstacles, &memory, &SETTINGS, None, rounds);
     assert!(position.iter().chain(&velocity).all(|v| v.is_finite()));
     (position, stops)
 }

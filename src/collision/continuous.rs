@@ -22,7 +22,7 @@ pub struct Sweep {
 }
 
 /// Which features the four points are the corners of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Features {
     /// A point, and the three corners of a triangle.
     VertexFace,
@@ -127,12 +127,13 @@ fn size(features: Features, [a, b, c, d]: [DVec3; 4]) -> f64 {
 
 /// How far apart two features are, and between which of their points.
 #[derive(Clone, Copy, Debug)]
-struct Near {
-    distance: f64,
-    weights: [f64; 4],
+pub(super) struct Near {
+    pub distance: f64,
+    /// Of the offset between the nearest points, as those of [`FirstTouch`].
+    pub weights: [f64; 4],
 }
 
-fn nearest(features: Features, [a, b, c, d]: [DVec3; 4]) -> Near {
+pub(super) fn nearest(features: Features, [a, b, c, d]: [DVec3; 4]) -> Near {
     match features {
         Features::VertexFace => {
             let closest = closest_point_on_triangle(a, [b, c, d]);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::motion::ObstacleMotion;
-use crate::remesh::EditGuard;
+use crate::remesh::{Change, EditGuard};
 
 /// Refuses edits after which more faces cross an obstacle, where it is at the end of its step, than
 /// before.
@@ -21,8 +21,8 @@ impl ObstacleGuard<'_> {
 }
 
 impl EditGuard for ObstacleGuard<'_> {
-    fn allows(&self, new_faces: &[[DVec3; 3]], old_faces: &[[DVec3; 3]]) -> bool {
-        let new = self.crossings(new_faces);
-        new == 0 || new <= self.crossings(old_faces)
+    fn allows(&self, change: &Change) -> bool {
+        let new = self.crossings(&change.new_faces);
+        new == 0 || new <= self.crossings(&change.old_faces)
     }
 }

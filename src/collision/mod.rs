@@ -6,7 +6,9 @@
 //! its way, points through triangles or edges through edges, is stopped.
 
 mod carry;
+mod cloth;
 mod continuous;
+mod everywhere;
 mod face_tree;
 mod group;
 mod guard;
@@ -23,6 +25,7 @@ mod shape;
 mod stop;
 mod topology;
 
+pub use cloth::{ClothContact, ClothGuard, Crossing, crossings};
 pub use continuous::{Features, FirstTouch, Sweep};
 pub use face_tree::{FaceTree, Touch};
 pub use guard::ObstacleGuard;

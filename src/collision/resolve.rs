@@ -9,6 +9,8 @@ use glam::DVec3;
 use parry3d_f64::bounding_volume::BoundingVolume;
 use rayon::prelude::*;
 
+use super::cloth::ClothContact;
+use super::everywhere::{Surroundings, stop_everywhere};
 use super::face_tree::{FaceTree, Touch};
 use super::motion::{At, ObstacleMotion};
 use super::near::{Known, NearMemory};
@@ -36,6 +38,8 @@ pub struct MovedCloth<'a> {
     /// Where each node was at the start of the step (m).
     pub position_at_start: &'a [DVec3],
     pub area: &'a [f64],
+    /// (kg).
+    pub mass: &'a [f64],
     pub faces: &'a [[u32; 3]],
 }
 
@@ -58,7 +62,7 @@ pub struct Resolution {
 }
 
 /// Leads cloth out of the obstacles at the end of their step, and stops it where it passed through
-/// one on its way. The tree is left fitted to the result.
+/// one, or through cloth (with `own`), on its way. The tree is left fitted to the result.
 pub fn resolve(
     cloth: &mut MovedCloth<'_>,
     tree: &mut FaceTree,
@@ -66,6 +70,7 @@ pub fn resolve(
     memory: &mut NearMemory,
     settings: &Contact,
     depth: Depth,
+    own: Option<&mut ClothContact>,
 ) -> Resolution {
     memory.forget_deforming(obstacles);
     let mut resolution = Resolution::default();
@@ -85,9 +90,18 @@ pub fn resolve(
         }
     }
     if depth == Depth::OfTheStep {
-        let stops = stop_at_obstacles(cloth, tree, obstacles, memory, settings);
+        let stops = stop_at_obstacles(cloth, tree, obstacles, memory, settings, None);
         resolution.impacts += stops.impacts;
         resolution.unresolved = stops.unresolved;
+    }
+    if let Some(own) = own {
+        if depth == Depth::Any {
+            own.expect_rest(tree, cloth.position_at_start, settings);
+        }
+        let around = Surroundings { tree, obstacles, memory, settings };
+        let stops = stop_everywhere(cloth, &mut own.search(tree, settings), &around);
+        resolution.impacts += stops.impacts;
+        resolution.unresolved += stops.unresolved;
     }
     tree.refit(cloth.position, cloth.faces);
     resolution

@@ -36,15 +36,18 @@ pub(super) struct Stops {
     pub unresolved: usize,
 }
 
-/// Stops the cloth at the obstacles' surfaces, a little outside.
+/// Stops the cloth at the obstacles' surfaces, a little outside; `among` are the nodes that moved
+/// since that was done before, `None` if it was not.
 pub(super) fn stop_at_obstacles(
     cloth: &mut MovedCloth<'_>,
     tree: &FaceTree,
     obstacles: &[ObstacleMotion],
     memory: &NearMemory,
     settings: &Contact,
+    among: Option<&[bool]>,
 ) -> Stops {
-    stop_in_rounds(cloth, tree, obstacles, memory, settings, [IMPACT_ROUNDS, CARRY_ROUNDS])
+    let rounds = [IMPACT_ROUNDS, CARRY_ROUNDS];
+    stop_in_rounds(cloth, tree, obstacles, memory, settings, among, rounds)
 }
 
 /// With so many rounds of impacts one by one, and so many of going along.
@@ -54,10 +57,11 @@ pub(super) fn stop_in_rounds(
     obstacles: &[ObstacleMotion],
     memory: &NearMemory,
     settings: &Contact,
+    among: Option<&[bool]>,
     [impact_rounds, carry_rounds]: [usize; 2],
 ) -> Stops {
     let mut stops = Stops::default();
-    let mut moved: Option<Vec<bool>> = None;
+    let mut moved: Option<Vec<bool>> = among.map(<[bool]>::to_vec);
     let mut carriers = Carriers::new(cloth.position.len());
     for round in 0..impact_rounds + carry_rounds {
         let found = found_impacts(cloth, tree, obstacles, memory, settings, moved.as_deref());
@@ -94,7 +98,7 @@ fn cut_faces(cloth: &MovedCloth<'_>, obstacles: &[ObstacleMotion]) -> usize {
 }
 
 /// In order of time, then of obstacles and faces.
-fn found_impacts(
+pub(super) fn found_impacts(
     cloth: &MovedCloth<'_>,
     tree: &FaceTree,
     obstacles: &[ObstacleMotion],

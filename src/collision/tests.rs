@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::*;
 use crate::math::Random;
-use crate::remesh::EditGuard;
+use crate::remesh::{Change, EditGuard};
 use crate::scene::{Contact, Pose, Surface};
 
 /// The cube from -1 to 1.
@@ -101,9 +101,15 @@ fn resolved(
     let mut tree = FaceTree::new(position_at_start, &faces);
     let area = [1.0; 3];
     let mut memory = NearMemory::new(3, obstacles.len());
-    let mut cloth =
-        MovedCloth { position, velocity, position_at_start, area: &area, faces: &faces };
-    resolve(&mut cloth, &mut tree, obstacles, &mut memory, settings, depth).impacts
+    let mut cloth = MovedCloth {
+        position,
+        velocity,
+        position_at_start,
+        area: &area,
+        mass: &area,
+        faces: &faces,
+    };
+    resolve(&mut cloth, &mut tree, obstacles, &mut memory, settings, depth, None).impacts
 }
 
 #[test]
@@ -177,9 +183,13 @@ fn the_guard_refuses_a_face_through_an_obstacle_only() {
     let through =
         [DVec3::new(-2.0, 0.0, 0.0), DVec3::new(2.0, 0.0, 0.1), DVec3::new(0.0, 3.0, 0.0)];
     let above = through.map(|p| p + DVec3::Z * 1.5);
-    assert!(!guard.allows(&[above, through], &[above, above]));
-    assert!(guard.allows(&[above], &[above, above]));
-    assert!(guard.allows(&[through], &[through, above]), "it crosses already");
+    let change = |new: &[[DVec3; 3]], old: &[[DVec3; 3]]| Change {
+        old_faces: old.to_vec(),
+        new_faces: new.to_vec(),
+    };
+    assert!(!guard.allows(&change(&[above, through], &[above, above])));
+    assert!(guard.allows(&change(&[above], &[above, above])));
+    assert!(guard.allows(&change(&[through], &[through, above])), "it crosses already");
 }
 
 #[test]

@@ -77,7 +77,7 @@ impl Convergence {
 /// Why a step was not taken. A shorter step may be.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum StepError {
-    #[error("the {what} of node {node} is not finite")]
+    #[error("the {what} of node {node} is not finite, or too large to be squared")]
     NonFinite { what: &'static str, node: usize },
     #[error(transparent)]
     Solve(#[from] SolveError),
@@ -120,7 +120,7 @@ impl StepState {
     }
 
     /// # Errors
-    /// The first position or velocity that is not finite.
+    /// The first position or velocity that is not finite, or whose square is not.
     pub fn check_finite(&self) -> Result<(), StepError> {
         finite("position", &self.position)?;
         finite("velocity", &self.velocity)
@@ -229,8 +229,9 @@ impl System {
     }
 }
 
+/// Of what cannot be squared no length and no energy is known either.
 fn finite(what: &'static str, values: &[DVec3]) -> Result<(), StepError> {
-    match values.iter().position(|value| !value.is_finite()) {
+    match values.iter().position(|value| !value.length_squared().is_finite()) {
         Some(node) => Err(StepError::NonFinite { what, node }),
         None => Ok(()),
     }

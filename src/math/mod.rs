@@ -15,4 +15,6 @@ pub use metric::{tensor_max, tensor_max_of, tensor_min};
 pub use random::Random;
 pub use segment::{SegmentPair, closest_points_of_segments, segment_distance_squared};
 pub use tensor::{Eigen2, SymTensor2};
-pub use triangle::{ClosestPoint, closest_point_on_triangle, triangles_cross};
+pub use triangle::{
+    ClosestPoint, closest_point_on_triangle, segment_passes_through, triangles_cross,
+};

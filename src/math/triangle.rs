@@ -62,23 +62,29 @@ pub fn triangles_cross(first: [DVec3; 3], second: [DVec3; 3]) -> bool {
     edge_passes_through(first, second) || edge_passes_through(second, first)
 }
 
-fn edge_passes_through(edges_of: [DVec3; 3], [a, b, c]: [DVec3; 3]) -> bool {
+fn edge_passes_through(edges_of: [DVec3; 3], face: [DVec3; 3]) -> bool {
+    [(0, 1), (1, 2), (2, 0)]
+        .into_iter()
+        .any(|(i, j)| segment_passes_through([edges_of[i], edges_of[j]], face))
+}
+
+/// Whether a segment passes through the inside of a triangle. One that lies in the triangle's plane
+/// to rounding does so only where it is over the inside.
+pub fn segment_passes_through(ends: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     let normal = (b - a).cross(c - a);
-    let height = edges_of.map(|p| normal.dot(p - a));
-    [(0, 1), (1, 2), (2, 0)].into_iter().any(|(i, j)| {
-        if (height[i] > 0.0) == (height[j] > 0.0) {
-            return false;
-        }
-        let t = height[i] / (height[i] - height[j]);
-        let p = edges_of[i].lerp(edges_of[j], t);
-        let inside = |from: DVec3, to: DVec3| normal.dot((to - from).cross(p - from)) > 0.0;
-        inside(a, b) && inside(b, c) && inside(c, a)
-    })
+    let [low, high] = ends.map(|p| normal.dot(p - a));
+    if (low > 0.0) == (high > 0.0) {
+        return false;
+    }
+    let p = ends[0].lerp(ends[1], low / (low - high));
+    let inside = |from: DVec3, to: DVec3| normal.dot((to - from).cross(p - from)) > 0.0;
+    inside(a, b) && inside(b, c) && inside(c, a)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DQuat;
     use proptest::prelude::*;
 
     fn point() -> impl Strategy<Value = DVec3> {
@@ -133,5 +139,20 @@ mod tests {
         let beside = blade.map(|p| p + DVec3::X * 9.0);
         assert!(!triangles_cross(floor, beside));
         assert!(!triangles_cross(floor, floor));
+    }
+
+    #[test]
+    fn neighbours_in_a_tilted_plane_do_not_cross_whatever_rounding_says() {
+        // Two rotations make every coordinate round.
+        let turn = DQuat::from_rotation_x(0.3) * DQuat::from_rotation_y(0.7);
+        let at = |i: u32, j: u32| turn * (DVec3::new(f64::from(i), f64::from(j), 0.0) * 0.0131);
+        for i in 0..40 {
+            for j in 0..40 {
+                let face = [at(i, j), at(i + 1, j), at(i, j + 1)];
+                for end in [at(i + 2, j), at(i, j + 2), at(i + 2, j + 1)] {
+                    assert!(!segment_passes_through([at(i + 1, j + 1), end], face));
+                }
+            }
+        }
     }
 }

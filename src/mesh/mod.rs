@@ -11,6 +11,7 @@ mod edit;
 mod id;
 mod measure;
 mod order;
+mod panels;
 mod parts;
 mod walk;
 
@@ -19,6 +20,7 @@ pub use check::Flaw;
 pub use edit::{Collapse, CollapseRefusal, FlipRefusal, MeshEditor};
 pub use id::{CornerId, FaceId, Id, IdVec, NodeId, VertexId};
 pub use measure::{aspect_ratio, signed_area};
+pub use panels::{Panel, Panels};
 pub use parts::MeshParts;
 
 use glam::{DVec2, DVec3};

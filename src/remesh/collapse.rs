@@ -1,7 +1,7 @@
 //! Collapsing edges that are shorter than they need be.
 
 use super::Remesher;
-use super::guard::{in_world, keeps_stretch};
+use super::guard::{Change, in_world, keeps_stretch};
 use super::queue::EdgeQueue;
 use crate::mesh::{Collapse, CornerId, Mesh, VertexId, aspect_ratio};
 
@@ -22,11 +22,13 @@ impl Remesher<'_> {
                 self.queue_if_short(&mut queue, corner);
                 continue;
             }
-            let wanted = self.editor.collapses(corner).into_iter().find(|&c| self.is_wanted(c));
-            let Some(collapse) = wanted else { continue };
+            let ways = self.editor.collapses(corner);
+            let wanted = ways.into_iter().find_map(|c| Some((c, self.wanted(c)?)));
+            let Some((collapse, change)) = wanted else { continue };
             if self.editor.collapse(collapse).is_err() {
                 continue;
             }
+            self.guard.note(&change);
             self.report.collapses += 1;
             let around = self.editor.mesh().corners_around(collapse.kept);
             let seeds = around.flat_map(|c| c.face().corners()).collect();
@@ -49,10 +51,9 @@ impl Remesher<'_> {
         }
     }
 
-    fn is_wanted(&mut self, collapse: Collapse) -> bool {
-        if self.editor.check_collapse(collapse).is_err() {
-            return false;
-        }
+    /// What a collapse changes, if it is allowed and does no harm.
+    fn wanted(&mut self, collapse: Collapse) -> Option<Change> {
+        self.editor.check_collapse(collapse).ok()?;
         let faces: Vec<[VertexId; 3]> = self.moved_faces(collapse);
         let mesh = self.editor.mesh();
         let shapes_kept = self
@@ -61,16 +62,16 @@ impl Remesher<'_> {
             .zip(&faces)
             .all(|(corner, &face)| self.is_shape_allowed(mesh, corner, face));
         if !shapes_kept || !self.are_edges_allowed(collapse, &faces) {
-            return false;
+            return None;
         }
         let corners = self.editor.moved_corners(collapse);
         let mut old: Vec<_> = corners.map(|c| mesh.face_vertices(c.face())).collect();
         let sides = [Some(collapse.corner), mesh.opposite(collapse.corner)];
         old.extend(sides.into_iter().flatten().map(|c| mesh.face_vertices(c.face())));
-        let allowed = keeps_stretch(mesh, &faces, &old)
-            && self.guard.allows(&in_world(mesh, &faces), &in_world(mesh, &old));
+        let change = Change { new_faces: in_world(mesh, &faces), old_faces: in_world(mesh, &old) };
+        let allowed = keeps_stretch(mesh, &faces, &old) && self.guard.allows(&change);
         self.report.vetoes += usize::from(!allowed);
-        allowed
+        allowed.then_some(change)
     }
 
     /// The faces that change, as they would be, each beginning with the kept node's vertex.

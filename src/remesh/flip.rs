@@ -1,6 +1,6 @@
 //! Flipping edges until the mesh is Delaunay in its metric.
 
-use super::guard::{in_world, keeps_stretch};
+use super::guard::{Change, in_world, keeps_stretch};
 use super::{Remesher, VALID_LENGTH_SQUARED};
 use crate::mesh::{CornerId, Mesh, aspect_ratio};
 
@@ -24,13 +24,15 @@ impl Remesher<'_> {
         let mut seen = seeds.clone();
         let mut stack = seeds;
         while let Some(corner) = stack.pop() {
-            if flips == flips_max || !self.is_flip_wanted(corner) {
+            if flips == flips_max {
                 continue;
             }
+            let Some(change) = self.wanted_flip(corner) else { continue };
             let other = self.editor.mesh().opposite(corner);
             if self.editor.flip(corner).is_err() {
                 continue;
             }
+            self.guard.note(&change);
             flips += 1;
             let faces = [Some(corner), other].into_iter().flatten().map(CornerId::face);
             for changed in faces.flat_map(|f| f.corners()) {
@@ -42,25 +44,25 @@ impl Remesher<'_> {
         seen
     }
 
-    /// Whether flipping is allowed, makes the mesh more Delaunay, and does no harm: no invalid
-    /// edge, no triangle slimmer than allowed, no intersection.
-    fn is_flip_wanted(&mut self, corner: CornerId) -> bool {
+    /// What flipping changes, if it is allowed, makes the mesh more Delaunay, and does no harm: no
+    /// invalid edge, no triangle slimmer than allowed, no intersection.
+    fn wanted_flip(&mut self, corner: CornerId) -> Option<Change> {
         let mesh = self.editor.mesh();
         if !self.editor.is_alive(corner.face()) {
-            return false;
+            return None;
         }
-        let Some(other) = mesh.opposite(corner) else { return false };
+        let other = mesh.opposite(corner)?;
         if mesh.is_seam(corner)
             || opposite_angle_sine(mesh, corner, other) >= FLIP_SINE
             || self.editor.check_flip(corner).is_err()
         {
-            return false;
+            return None;
         }
         let [a, b, p, q] = mesh.diamond(corner, other);
         let new_length = ((mesh.metric[p] + mesh.metric[q]) * 0.5)
             .quadratic_form(mesh.material(q) - mesh.material(p));
         if new_length > VALID_LENGTH_SQUARED && new_length > mesh.metric_length_squared(corner) {
-            return false;
+            return None;
         }
         let least_aspect = |faces: [[_; 3]; 2]| {
             let aspect = |f: [_; 3]| aspect_ratio(f.map(|v| mesh.material(v)));
@@ -70,12 +72,13 @@ impl Remesher<'_> {
         let new_aspect = least_aspect(new_faces);
         let old_faces = [[p, a, b], [q, b, a]];
         if new_aspect < self.settings.aspect_min && new_aspect < least_aspect(old_faces) {
-            return false;
+            return None;
         }
-        let allowed = keeps_stretch(mesh, &new_faces, &old_faces)
-            && self.guard.allows(&in_world(mesh, &new_faces), &in_world(mesh, &old_faces));
+        let change =
+            Change { new_faces: in_world(mesh, &new_faces), old_faces: in_world(mesh, &old_faces) };
+        let allowed = keeps_stretch(mesh, &new_faces, &old_faces) && self.guard.allows(&change);
         self.report.vetoes += usize::from(!allowed);
-        allowed
+        allowed.then_some(change)
     }
 }
 

@@ -7,14 +7,24 @@ use crate::mesh::{Mesh, VertexId};
 /// Watches over the surface while it is remeshed.
 pub trait EditGuard {
     /// Whether a collapse or a flip may put new faces in the place of old ones (m, world).
-    fn allows(&self, new_faces: &[[DVec3; 3]], old_faces: &[[DVec3; 3]]) -> bool;
+    fn allows(&self, change: &Change) -> bool;
+
+    /// Takes note of what an edit has done; of splits as well, which nobody asks about.
+    fn note(&self, _change: &Change) {}
+}
+
+/// What an edit does to the faces in the world (m).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Change {
+    pub old_faces: Vec<[DVec3; 3]>,
+    pub new_faces: Vec<[DVec3; 3]>,
 }
 
 /// Allows everything.
 pub struct NoGuard;
 
 impl EditGuard for NoGuard {
-    fn allows(&self, _new_faces: &[[DVec3; 3]], _old_faces: &[[DVec3; 3]]) -> bool {
+    fn allows(&self, _change: &Change) -> bool {
         true
     }
 }

@@ -10,7 +10,7 @@ mod guard;
 mod queue;
 mod split;
 
-pub use guard::{EditGuard, NoGuard};
+pub use guard::{Change, EditGuard, NoGuard};
 
 use crate::mesh::{Mesh, MeshEditor};
 

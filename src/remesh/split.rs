@@ -1,5 +1,8 @@
 //! Splitting edges that are too long.
 
+use glam::DVec3;
+
+use super::guard::Change;
 use super::queue::EdgeQueue;
 use super::{Remesher, VALID_LENGTH_SQUARED};
 use crate::mesh::CornerId;
@@ -24,9 +27,16 @@ impl Remesher<'_> {
             if self.editor.face_count() >= self.settings.face_count_max {
                 break;
             }
+            let mesh = self.editor.mesh();
+            let sides = [Some(corner), mesh.opposite(corner)];
+            let old_faces: Vec<[DVec3; 3]> =
+                sides.into_iter().flatten().map(|c| mesh.face_positions(c.face())).collect();
             let node = self.editor.split(corner);
             self.report.splits += 1;
             let around: Vec<CornerId> = self.editor.mesh().corners_around(node).collect();
+            let mesh = self.editor.mesh();
+            let new_faces = around.iter().map(|c| mesh.face_positions(c.face())).collect();
+            self.guard.note(&Change { old_faces, new_faces });
             let seeds = around.iter().flat_map(|c| c.face().corners()).collect();
             for changed in self.flip_from(seeds) {
                 self.queue_if_invalid(&mut queue, changed);

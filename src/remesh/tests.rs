@@ -155,7 +155,7 @@ fn the_limit_of_faces_ends_a_metric_that_asks_for_too_much() {
 fn a_guard_that_refuses_everything_leaves_only_splits() {
     struct Never;
     impl EditGuard for Never {
-        fn allows(&self, _: &[[DVec3; 3]], _: &[[DVec3; 3]]) -> bool {
+        fn allows(&self, _: &Change) -> bool {
             false
         }
     }

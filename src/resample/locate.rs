@@ -8,9 +8,8 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::panels::{Panel, Panels};
 use crate::math::closest_point_on_triangle;
-use crate::mesh::{FaceId, Mesh};
+use crate::mesh::{FaceId, Mesh, Panel, Panels};
 
 /// A point of the flat cloth.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,7 +7,6 @@
 mod cloth_map;
 mod displacement;
 mod locate;
-mod panels;
 mod raster;
 mod silhouette;
 mod spread;
@@ -17,7 +16,6 @@ mod visible;
 pub use cloth_map::{ClothMap, ClothMismatch, ClothPoint};
 pub use displacement::{Displacement, Pair};
 pub use locate::{Located, Locator, MaterialPoint};
-pub use panels::{Panel, Panels};
 pub use raster::{Raster, Sighting, What};
 pub use silhouette::SilhouetteDifference;
 pub use spread::Spread;

@@ -29,7 +29,9 @@ pub use step::SimError;
 
 use std::sync::Arc;
 
-use crate::collision::{Depth, FaceTree, NearMemory, ObstacleMotion, Obstacles, trapped_nodes};
+use crate::collision::{
+    ClothContact, Depth, FaceTree, NearMemory, ObstacleMotion, Obstacles, crossings, trapped_nodes,
+};
 use crate::dynamics::{StepState, System};
 use crate::mesh::{FaceId, IdVec, Mesh};
 use crate::scene::{Fabric, Pose, Scene};
@@ -58,6 +60,8 @@ struct MovingCloth {
     faces: Vec<[u32; 3]>,
     tree: FaceTree,
     near: NearMemory,
+    /// `None` where cloth passes through cloth.
+    own: Option<ClothContact>,
     held: HeldNodes,
 }
 
@@ -120,7 +124,7 @@ impl Simulation {
     pub fn advance(&mut self) -> Result<Frame, SimError> {
         let mut clock = StageClock::start();
         let mut report = FrameReport::default();
-        self.cloth.forget_the_past(&self.scene, &self.garments, &mut clock);
+        self.cloth.forget_the_past(&self.garments, &mut clock);
         let (start, step_time) = (self.time(), self.scene.step_time());
         for step in 0..self.scene.steps_per_frame {
             let time = start + f64::from(step) * step_time;
@@ -176,6 +180,10 @@ impl Simulation {
 
     fn publish(&self, mut clock: StageClock, mut report: FrameReport) -> Frame {
         frame::measure(&self.garments, &mut report);
+        if self.scene.stages.self_contact {
+            report.intersections =
+                Some(crossings(&self.cloth.tree, &self.cloth.state.position).len());
+        }
         report.elastic_energy = self.cloth.system.potential_energy(&self.cloth.state);
         report.kinetic_energy = self.cloth.system.kinetic_energy(&self.cloth.state);
         report.stages = clock.finish();
@@ -198,13 +206,15 @@ impl MovingCloth {
         let fabrics: Vec<&Fabric> = scene.garments.iter().map(|g| &g.fabric).collect();
         let state = StepState::gathered(&meshes);
         let faces = global_faces(garments);
-        // Only obstacles ask for the nearest face.
-        let asked_for: &[_] = if scene.obstacles.is_empty() { &[] } else { &faces };
+        let tree = FaceTree::new(&state.position, &faces);
+        let own =
+            scene.stages.self_contact.then(|| ClothContact::new(garments, &tree, &state.position));
         let mut system = System::new(&meshes, &fabrics);
         system.set_dynamics(scene.dynamics);
         Self {
             system,
-            tree: FaceTree::new(&state.position, asked_for),
+            tree,
+            own,
             area: meshes.iter().flat_map(|m| m.node_areas().into_vec()).collect(),
             near: NearMemory::new(state.position.len(), scene.obstacles.len()),
             held: HeldNodes::new(scene, garments),
@@ -222,13 +232,14 @@ impl MovingCloth {
 
     /// Becomes what a new one of the published garments would be. Which of several nearest faces
     /// is found depends on the tree's shape, and how a solution is rounded on the matrix's pattern.
-    fn forget_the_past(&mut self, scene: &Scene, garments: &[Mesh], clock: &mut StageClock) {
+    fn forget_the_past(&mut self, garments: &[Mesh], clock: &mut StageClock) {
         self.state = StepState::gathered(&garments.iter().collect::<Vec<_>>());
-        if !scene.obstacles.is_empty() {
-            let tree = || FaceTree::new(&self.state.position, &self.faces);
-            self.tree = clock.time(Stage::Proximity, tree);
-            self.near.forget();
-        }
+        clock.time(Stage::Proximity, || {
+            self.tree = FaceTree::new(&self.state.position, &self.faces);
+            let own = |_| ClothContact::new(garments, &self.tree, &self.state.position);
+            self.own = self.own.take().map(own);
+        });
+        self.near.forget();
         clock.time(Stage::Dynamics, || self.system.forget_the_past());
     }
 

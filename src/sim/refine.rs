@@ -3,10 +3,10 @@
 use super::clock::{Stage, StageClock};
 use super::frame::FrameReport;
 use super::{PerFace, Simulation, SizingMode};
-use crate::collision::{ObstacleGuard, ObstacleMotion, nearest_planes};
+use crate::collision::{ClothGuard, ObstacleGuard, ObstacleMotion, nearest_planes};
 use crate::math::SymTensor2;
-use crate::mesh::{IdVec, NodeId};
-use crate::remesh::{NoGuard, RemeshReport, RemeshSettings, remesh};
+use crate::mesh::{IdVec, Mesh, NodeId};
+use crate::remesh::{Change, EditGuard, RemeshReport, RemeshSettings, remesh};
 use crate::sizing::{Plane, base_metric, faces_to_vertices};
 use crate::view::{ViewerWindow, view_field};
 
@@ -14,16 +14,36 @@ use crate::view::{ViewerWindow, view_field};
 /// ([`NSO12`](crate::papers::NSO12)).
 const OBSTACLE_RANGE_IN_THICKNESSES: f64 = 10.0;
 
+/// Keeps faces out of obstacles, and out of other cloth.
+struct SurfaceGuard<'a> {
+    obstacles: ObstacleGuard<'a>,
+    cloth: Option<ClothGuard>,
+}
+
+impl EditGuard for SurfaceGuard<'_> {
+    fn allows(&self, change: &Change) -> bool {
+        self.obstacles.allows(change) && self.cloth.as_ref().is_none_or(|c| c.allows(change))
+    }
+
+    fn note(&self, change: &Change) {
+        if let Some(cloth) = &self.cloth {
+            cloth.note(change);
+        }
+    }
+}
+
 impl Simulation {
     /// Sizes and remeshes every garment at the current frame, then renews the moving cloth.
     pub(super) fn refine(&mut self, clock: &mut StageClock, report: &mut FrameReport) {
         let obstacles = self.obstacles_at_rest();
+        let cloth = self.cloth_guard();
+        let guard = SurfaceGuard { obstacles: ObstacleGuard { obstacles: &obstacles }, cloth };
         let mut edits = 0;
         for index in 0..self.garments.len() {
             let planes = clock.time(Stage::Sizing, || self.planes(index, &obstacles));
             let base = clock.time(Stage::Sizing, || self.base_metric(index, &planes));
             clock.time(Stage::View, || self.set_metric(index, base));
-            let done = clock.time(Stage::Remesh, || self.remesh(index, &obstacles));
+            let done = clock.time(Stage::Remesh, || self.remesh(index, &guard));
             edits += done.edit_count();
             self.note(index, done, report);
         }
@@ -71,12 +91,14 @@ impl Simulation {
         report: &mut FrameReport,
     ) {
         let obstacles = self.obstacles_at_rest();
+        let cloth = self.cloth_guard();
+        let guard = SurfaceGuard { obstacles: ObstacleGuard { obstacles: &obstacles }, cloth };
         for index in 0..self.garments.len() {
             let length = edge_length.unwrap_or(self.scene.garments[index].sizing.edge_length_min);
             let metric = SymTensor2::isotropic(1.0 / (length * length));
             let mesh = &mut self.garments[index];
             mesh.metric = IdVec::filled(metric, mesh.vertex_count());
-            let done = clock.time(Stage::Remesh, || self.remesh(index, &obstacles));
+            let done = clock.time(Stage::Remesh, || self.remesh(index, &guard));
             self.note(index, done, report);
         }
         clock.time(Stage::Remesh, || self.cloth.renew(&self.scene, &self.garments));
@@ -113,16 +135,22 @@ impl Simulation {
         mesh.view_factor = field.factor;
     }
 
-    fn remesh(&mut self, index: usize, obstacles: &[ObstacleMotion]) -> RemeshReport {
+    /// Of all garments as they are; `None` where cloth may pass through cloth.
+    fn cloth_guard(&self) -> Option<ClothGuard> {
+        let stages = &self.scene.stages;
+        let faces =
+            |mesh: &Mesh| mesh.face_ids().map(|f| mesh.face_positions(f)).collect::<Vec<_>>();
+        (stages.self_contact && stages.collision)
+            .then(|| ClothGuard::new(self.garments.iter().flat_map(faces).collect()))
+    }
+
+    fn remesh(&mut self, index: usize, guard: &SurfaceGuard<'_>) -> RemeshReport {
         let settings = RemeshSettings {
             aspect_min: self.scene.garments[index].sizing.aspect_min,
             ..RemeshSettings::default()
         };
         let mesh = std::mem::take(&mut self.garments[index]);
-        let (mesh, report) = match obstacles.is_empty() {
-            true => remesh(mesh, &settings, &NoGuard),
-            false => remesh(mesh, &settings, &ObstacleGuard { obstacles }),
-        };
+        let (mesh, report) = remesh(mesh, &settings, guard);
         self.garments[index] = mesh;
         report
     }

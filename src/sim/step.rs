@@ -7,7 +7,7 @@ use super::clock::{Stage, StageClock};
 use super::frame::FrameReport;
 use super::{MovingCloth, Simulation};
 use crate::collision::{Cloth, Depth, MovedCloth, ObstacleMotion, Resolution, contacts, resolve};
-use crate::dynamics::{StepError, StepForces, StepState};
+use crate::dynamics::{ContactPoint, StepError, StepForces, StepState};
 use crate::scene::Contact;
 
 /// Why a simulation cannot go on.
@@ -95,10 +95,7 @@ impl Simulation {
             let moving = self.obstacles.moving(&scene, [time, end], step_time);
             (moving, self.anchors.springs(&scene, &self.cloth.held, &before.position, end))
         });
-        let contacts = match scene.stages.proximity && !obstacles.is_empty() {
-            true => clock.time(Stage::Proximity, || self.contacts(&obstacles)),
-            false => Vec::new(),
-        };
+        let contacts = clock.time(Stage::Proximity, || self.contacts(&obstacles, step_time));
         if scene.stages.dynamics {
             let forces = StepForces { gravity, air, handles: &handles, contacts: &contacts };
             let cloth = &mut self.cloth;
@@ -122,24 +119,31 @@ impl Simulation {
     fn keep_if_finite(&mut self, before: StepState, end: f64) -> Result<(), StepError> {
         if let Err(error) = self.cloth.state.check_finite() {
             self.cloth.state = before;
-            if !self.obstacles.is_empty() {
-                self.cloth.refit();
-            }
+            self.cloth.refit();
             return Err(error);
         }
         self.anchors.take_hold(&self.scene, &self.cloth.held, &before.position, end);
         Ok(())
     }
 
-    fn contacts(&mut self, obstacles: &[ObstacleMotion]) -> Vec<crate::dynamics::ContactPoint> {
-        let cloth = &mut self.cloth;
+    /// Contacts with obstacles and of cloth with cloth; where cloth meets cloth is looked up for the
+    /// whole step.
+    fn contacts(&mut self, obstacles: &[ObstacleMotion], duration: f64) -> Vec<ContactPoint> {
+        let (cloth, settings) = (&mut self.cloth, &self.scene.contact);
         let seen = Cloth {
             position: &cloth.state.position,
             velocity: &cloth.state.velocity,
             area: &cloth.area,
             faces: &cloth.faces,
         };
-        contacts(seen, &cloth.tree, obstacles, &mut cloth.near, &self.scene.contact)
+        let mut found = match obstacles.is_empty() {
+            true => Vec::new(),
+            false => contacts(seen, &cloth.tree, obstacles, &mut cloth.near, settings),
+        };
+        if let Some(own) = &mut cloth.own {
+            found.extend(own.contacts(seen, &cloth.tree, settings, duration));
+        }
+        if self.scene.stages.proximity { found } else { Vec::new() }
     }
 
     fn resolve(
@@ -148,7 +152,7 @@ impl Simulation {
         obstacles: &[ObstacleMotion],
         report: &mut FrameReport,
     ) {
-        if obstacles.is_empty() {
+        if obstacles.is_empty() && self.cloth.own.is_none() {
             return;
         }
         if self.scene.stages.collision {
@@ -161,7 +165,7 @@ impl Simulation {
             report.counts.impacts += done.impacts as u64;
             if done.unresolved > 0 {
                 report.warnings.push(format!(
-                    "cloth passes through obstacles in {} places, caught between them",
+                    "cloth passes through obstacles or cloth in {} places, caught between obstacles",
                     done.unresolved
                 ));
             }
@@ -185,8 +189,10 @@ impl MovingCloth {
             velocity: &mut self.state.velocity,
             position_at_start,
             area: &self.area,
+            mass: self.system.masses(),
             faces: &self.faces,
         };
-        resolve(&mut moved, &mut self.tree, obstacles, &mut self.near, settings, depth)
+        let own = self.own.as_mut();
+        resolve(&mut moved, &mut self.tree, obstacles, &mut self.near, settings, depth, own)
     }
 }

@@ -54,7 +54,7 @@ pub fn scene(garments: Vec<Garment>) -> Scene {
         dynamics: Dynamics::default(),
         handle_stiffness: 1e6,
         start_perturbation: 0.0,
-        stages: StageSwitches { remeshing: false, ..StageSwitches::default() },
+        stages: StageSwitches { remeshing: false, self_contact: false, ..StageSwitches::default() },
         garments,
         obstacles: Vec::new(),
         motions: Vec::new(),

@@ -103,6 +103,8 @@ pub enum StageName {
     Proximity,
     /// The continuous test that keeps surfaces from passing through each other.
     Collision,
+    /// Contact of cloth with cloth: garments pass through one another and through themselves.
+    SelfContact,
     /// Adaptive resolution: the mesh stays as given.
     Remeshing,
     /// The bound on stretch.
@@ -118,6 +120,7 @@ pub(in crate::scene) fn stages(disabled: &[StageName]) -> StageSwitches {
             StageName::Dynamics => &mut stages.dynamics,
             StageName::Proximity => &mut stages.proximity,
             StageName::Collision => &mut stages.collision,
+            StageName::SelfContact => &mut stages.self_contact,
             StageName::Remeshing => &mut stages.remeshing,
             StageName::StrainLimiting => &mut stages.strain_limiting,
             StageName::Untangling => &mut stages.untangling,

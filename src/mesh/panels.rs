@@ -4,7 +4,7 @@
 //! name a point. Remeshing keeps the nodes which give a piece its shape, with their index in the
 //! garment's input: they tell which piece of one mesh is which of another.
 
-use crate::mesh::{FaceId, IdVec, Mesh, VertexId};
+use super::{FaceId, IdVec, Mesh, VertexId};
 
 /// One of a garment's pieces, counted from 0.
 pub type Panel = usize;

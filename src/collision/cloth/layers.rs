@@ -1,0 +1,89 @@
+//! What contact of cloth with cloth needs to know of the garments: made once per topology.
+
+use glam::{DVec2, DVec3};
+
+use super::pairs::ClothPair;
+use crate::collision::topology::Topology;
+use crate::mesh::{Mesh, Panels};
+
+/// Features that are next to one another in the flat cloth are held off by this share of their
+/// distance there at most: a fold may close on itself, and flat cloth is at ease.
+const SHARE_OF_FLAT_DISTANCE: f64 = 0.5;
+
+/// Features that a seam joins, and whose distance along the cloth is therefore not known, are held
+/// off by this share of the contact thickness.
+const SHARE_ACROSS_SEAM: f64 = 0.1;
+
+/// All garments' faces in one numbering, in the flat cloth and as neighbours.
+pub struct Layers {
+    /// Per face (m, flat cloth).
+    material: Vec<[DVec2; 3]>,
+    /// Per face, in a numbering over all garments.
+    panel: Vec<u32>,
+    /// Per node its neighbours: `neighbour[first[n]..first[n + 1]]`, ascending.
+    first: Vec<u32>,
+    neighbour: Vec<u32>,
+}
+
+impl Layers {
+    /// The topology is that of all garments, in their order.
+    pub fn new(garments: &[Mesh], topology: &Topology, node_count: usize) -> Self {
+        let (mut material, mut panel) = (Vec::new(), Vec::new());
+        let mut panel_count = 0;
+        for mesh in garments {
+            let panels = Panels::of(mesh);
+            material.extend(mesh.face_ids().map(|f| mesh.face_material(f)));
+            panel.extend(mesh.face_ids().map(|f| (panel_count + panels.of_face(f)) as u32));
+            panel_count += panels.count();
+        }
+        let (first, neighbour) = neighbours(topology, node_count);
+        Self { material, panel, first, neighbour }
+    }
+
+    /// How far a pair is held apart (m), given the thickness of contact and the weights of the
+    /// points that are nearest to one another.
+    pub(super) fn thickness(
+        &self,
+        pair: ClothPair,
+        nodes: [usize; 4],
+        weights: [f64; 4],
+        thickness: f64,
+    ) -> f64 {
+        let [a, b] = pair.faces().map(|f| self.panel[f]);
+        if a == b {
+            let flat: DVec2 = (0..4).map(|k| self.material_at(pair.corners[k]) * weights[k]).sum();
+            return thickness.min(SHARE_OF_FLAT_DISTANCE * flat.length());
+        }
+        let (one, other) = pair.split(nodes);
+        let is_joined = one.iter().any(|&a| other.iter().any(|&b| self.are_neighbours(a, b)));
+        if is_joined { SHARE_ACROSS_SEAM * thickness } else { thickness }
+    }
+
+    fn material_at(&self, corner: u32) -> DVec2 {
+        self.material[corner as usize / 3][corner as usize % 3]
+    }
+
+    fn are_neighbours(&self, a: usize, b: usize) -> bool {
+        let range = self.first[a] as usize..self.first[a + 1] as usize;
+        self.neighbour[range].binary_search(&(b as u32)).is_ok()
+    }
+}
+
+fn neighbours(topology: &Topology, node_count: usize) -> (Vec<u32>, Vec<u32>) {
+    let mut pairs: Vec<[u32; 2]> =
+        topology.edges().iter().flat_map(|e| [e.corners, [e.corners[1], e.corners[0]]]).collect();
+    pairs.sort_unstable();
+    let mut first = vec![0; node_count + 1];
+    for [a, _] in &pairs {
+        first[*a as usize + 1] += 1;
+    }
+    for node in 0..node_count {
+        first[node + 1] += first[node];
+    }
+    (first, pairs.into_iter().map(|[_, b]| b).collect())
+}
+
+/// The weighted sum of the four points of a pair.
+pub(super) fn weighted(values: &[DVec3], nodes: [usize; 4], weights: [f64; 4]) -> DVec3 {
+    (0..4).map(|k| values[nodes[k]] * weights[k]).sum()
+}

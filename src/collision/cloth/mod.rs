@@ -1,0 +1,84 @@
+//! Cloth against cloth, of one garment or of several.
+//!
+//! Before the step, features of the cloth that come near one another become contacts
+//! ([`cloth_contacts`]). After it, whatever would have passed through other cloth is stopped
+//! ([`stop`]): first by impacts one by one, then, where these go on and on, by letting what touches
+//! move as one ([`zones`]), which always ends.
+
+mod contacts;
+mod crossings;
+mod guard;
+mod impact;
+mod layers;
+mod pairs;
+mod stop;
+mod zones;
+
+pub use crossings::{Crossing, crossings};
+pub use guard::ClothGuard;
+pub(super) use stop::{ClothSearch, stop_cloth};
+pub(super) use zones::Zones;
+
+use contacts::cloth_contacts;
+use layers::Layers;
+use pairs::ClothPairs;
+
+use super::face_tree::FaceTree;
+use super::proximity::Cloth;
+use crate::dynamics::ContactPoint;
+use crate::mesh::Mesh;
+use crate::scene::Contact;
+
+/// Nodes may stray from where they are expected to go by this, in contact thicknesses, before
+/// their surroundings are looked up again.
+const ROOM_IN_THICKNESSES: f64 = 0.1;
+
+/// All that contact of cloth with cloth keeps: made anew with every topology, and with every frame.
+pub struct ClothContact {
+    layers: Layers,
+    pairs: ClothPairs,
+}
+
+impl ClothContact {
+    /// Of all garments, in the order of the tree's faces.
+    pub fn new(garments: &[Mesh], tree: &FaceTree, positions: &[glam::DVec3]) -> Self {
+        let topology = tree.topology();
+        Self {
+            layers: Layers::new(garments, topology, positions.len()),
+            pairs: ClothPairs::new(positions, topology),
+        }
+    }
+
+    /// Pairs that are nearer than they should be, or would be within the step (s) if everything went on
+    /// as it goes; afterwards the step's impacts can be looked for.
+    pub fn contacts(
+        &mut self,
+        cloth: Cloth<'_>,
+        tree: &FaceTree,
+        settings: &Contact,
+        duration: f64,
+    ) -> Vec<ContactPoint> {
+        let topology = tree.topology();
+        let way = |node: usize| cloth.velocity[node] * duration;
+        let reach = (0.5 + ROOM_IN_THICKNESSES) * settings.thickness;
+        self.pairs.find(topology, cloth.position, way, reach);
+        cloth_contacts(cloth, topology, &self.layers, self.pairs.found(), settings, duration)
+    }
+
+    /// Makes ready to look for impacts on ways from `start`, whatever they are.
+    pub fn expect_rest(&mut self, tree: &FaceTree, start: &[glam::DVec3], settings: &Contact) {
+        let reach = ROOM_IN_THICKNESSES * settings.thickness;
+        self.pairs.find(tree.topology(), start, |_| glam::DVec3::ZERO, reach);
+    }
+
+    pub(super) fn search<'a>(
+        &'a mut self,
+        tree: &'a FaceTree,
+        settings: &'a Contact,
+    ) -> ClothSearch<'a> {
+        ClothSearch { topology: tree.topology(), pairs: &mut self.pairs, settings }
+    }
+}
+
+#[cfg(test)]
+mod tests;

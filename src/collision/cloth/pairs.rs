@@ -1,0 +1,214 @@
+//! The broad phase of cloth against cloth: which features may come near one another in a step.
+//!
+//! Every node is given a box that it is expected to stay in. Features whose boxes meet are pairs;
+//! as long as all nodes keep to their boxes, no others can touch, so that contacts before the step
+//! and impacts after it are looked for among the same pairs. Nodes that leave their boxes get larger
+//! ones, and their faces are looked up again.
+
+use glam::DVec3;
+use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
+
+use crate::collision::continuous::Features;
+use crate::collision::topology::Topology;
+
+/// Two features of the cloth without a common node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ClothPair {
+    pub features: Features,
+    /// Corners, three to a face: the node and the corners of the face, or the ends of one edge and
+    /// of the other.
+    pub corners: [u32; 4],
+}
+
+impl ClothPair {
+    pub fn nodes(self, topology: &Topology) -> [usize; 4] {
+        self.corners.map(|c| topology.triangles()[c as usize / 3][c as usize % 3] as usize)
+    }
+
+    /// A face of either feature.
+    pub fn faces(self) -> [usize; 2] {
+        [self.corners[0] as usize / 3, self.corners[3] as usize / 3]
+    }
+
+    /// What belongs to the first feature, and what to the second.
+    pub fn split<T>(self, nodes: [T; 4]) -> (Vec<T>, Vec<T>) {
+        let count = match self.features {
+            Features::VertexFace => 1,
+            Features::EdgeEdge => 2,
+        };
+        let mut first = Vec::from(nodes);
+        let second = first.split_off(count);
+        (first, second)
+    }
+}
+
+/// The pairs of a step.
+pub struct ClothPairs {
+    /// Of faces, in their boxes.
+    tree: Bvh,
+    workspace: BvhWorkspace,
+    boxes: Boxes,
+    /// What boxes move along with: where the step's end is seen from its start (m).
+    drift: DVec3,
+    found: Vec<ClothPair>,
+}
+
+/// Boxes around the ways of nodes, and of edges and faces around their nodes'.
+struct Boxes {
+    node: Vec<Aabb>,
+    edge: Vec<Aabb>,
+    face: Vec<Aabb>,
+}
+
+impl ClothPairs {
+    pub fn new(positions: &[DVec3], topology: &Topology) -> Self {
+        let boxes = Boxes::new(positions.iter().map(|&x| Aabb::new(x, x)).collect(), topology);
+        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes.face);
+        let (workspace, drift) = (BvhWorkspace::default(), DVec3::ZERO);
+        Self { tree, workspace, boxes, drift, found: Vec::new() }
+    }
+
+    /// Finds the pairs for a step from `start`, on which nodes are expected to go `way` (m): boxes
+    /// reach farther than both ends by `reach` (m). All features nearer to one another than twice the
+    /// reach are among them.
+    ///
+    /// Boxes move along with the mean way: what all have in common brings nothing together.
+    pub fn find(
+        &mut self,
+        topology: &Topology,
+        start: &[DVec3],
+        way: impl Fn(usize) -> DVec3,
+        reach: f64,
+    ) {
+        let count = start.len().max(1) as f64;
+        self.drift = (0..start.len()).map(&way).sum::<DVec3>() / count;
+        for (node, (&x, own)) in start.iter().zip(&mut self.boxes.node).enumerate() {
+            let end = x + (way(node) - self.drift);
+            *own = Aabb::new(x.min(end), x.max(end)).loosened(reach);
+        }
+        self.boxes.fit(topology);
+        for (index, of_face) in self.boxes.face.iter().enumerate() {
+            self.tree.insert_or_update_partially(*of_face, index as u32, 0.0);
+        }
+        self.tree.refit_without_opt();
+        self.found.clear();
+        let (boxes, found) = (&self.boxes, &mut self.found);
+        let mut push = |a: u32, b: u32| boxes.push_pairs(topology, [a, b], found);
+        self.tree.traverse_bvtt_single_tree::<false>(&mut self.workspace, &mut push);
+    }
+
+    /// Sees to it that the pairs hold for nodes that end where they do: those that left their
+    /// boxes get boxes that reach farther by `reach` (m), and pairs are added.
+    pub fn cover(&mut self, topology: &Topology, ends: &[DVec3], reach: f64) {
+        let mut is_out = vec![false; ends.len()];
+        for (node, (x, own)) in ends.iter().zip(&mut self.boxes.node).enumerate() {
+            let end = *x - self.drift;
+            if end.clamp(own.mins, own.maxs) != end {
+                is_out[node] = true;
+                own.merge(&Aabb::new(end, end).loosened(reach));
+            }
+        }
+        if !is_out.contains(&true) {
+            return;
+        }
+        self.boxes.fit(topology);
+        let is_larger =
+            |f: u32| topology.triangles()[f as usize].iter().any(|&n| is_out[n as usize]);
+        let larger: Vec<u32> =
+            (0..topology.triangles().len() as u32).filter(|&f| is_larger(f)).collect();
+        for &face in &larger {
+            self.tree.insert_or_update_partially(self.boxes.face[face as usize], face, 0.0);
+        }
+        self.tree.refit_without_opt();
+        for &face in &larger {
+            for other in self.tree.intersect_aabb(&self.boxes.face[face as usize]) {
+                if other != face && (!is_larger(other) || face < other) {
+                    self.boxes.push_pairs(topology, [face, other], &mut self.found);
+                }
+            }
+        }
+        self.found.sort_unstable();
+        self.found.dedup();
+    }
+
+    pub fn found(&self) -> &[ClothPair] {
+        &self.found
+    }
+}
+
+impl Boxes {
+    fn new(node: Vec<Aabb>, topology: &Topology) -> Self {
+        let mut boxes = Self { node, edge: Vec::new(), face: Vec::new() };
+        boxes.fit(topology);
+        boxes
+    }
+
+    /// Fits the boxes of edges and faces to those of nodes.
+    fn fit(&mut self, topology: &Topology) {
+        let of = |n: u32| &self.node[n as usize];
+        self.edge.clear();
+        let edges = topology.edges().iter().map(|e| e.corners);
+        self.edge.extend(edges.map(|[a, b]| of(a).merged(of(b))));
+        self.face.clear();
+        let faces = topology.triangles().iter();
+        self.face.extend(faces.map(|&[a, b, c]| of(a).merged(of(b)).merged(of(c))));
+    }
+
+    /// The pairs that two faces answer for; the same whichever of them is named first.
+    fn push_pairs(&self, topology: &Topology, faces: [u32; 2], found: &mut Vec<ClothPair>) {
+        let faces = [faces[0].min(faces[1]), faces[0].max(faces[1])];
+        let [one, other] = faces.map(|f| &self.face[f as usize]);
+        let common = Aabb::new(one.mins.max(other.mins), one.maxs.min(other.maxs));
+        self.push_node_faces(topology, faces, &common, found);
+        self.push_node_faces(topology, [faces[1], faces[0]], &common, found);
+        let [of_one, of_other] = faces.map(|f| (topology.owned(f).edge, topology.edges_of(f)));
+        for i in 0..3 {
+            let edge = of_one.1[i] as usize;
+            if !of_one.0[i] || !meet(&self.edge[edge], &common) {
+                continue;
+            }
+            let [a, b] = topology.edges()[edge].corners;
+            for j in 0..3 {
+                let second = of_other.1[j] as usize;
+                if !of_other.0[j] || !meet(&self.edge[edge], &self.edge[second]) {
+                    continue;
+                }
+                let [c, d] = topology.edges()[second].corners;
+                if a != c && a != d && b != c && b != d {
+                    let corner = |face: u32, k: usize| 3 * face + (k % 3) as u32;
+                    let ends = |face: u32, k: usize| [corner(face, k + 1), corner(face, k + 2)];
+                    let ([a, b], [c, d]) = (ends(faces[0], i), ends(faces[1], j));
+                    let features = Features::EdgeEdge;
+                    found.push(ClothPair { features, corners: [a, b, c, d] });
+                }
+            }
+        }
+    }
+
+    /// Nodes that the first face answers for, against the second.
+    fn push_node_faces(
+        &self,
+        topology: &Topology,
+        [own, face]: [u32; 2],
+        common: &Aabb,
+        found: &mut Vec<ClothPair>,
+    ) {
+        let nodes = topology.triangles()[own as usize];
+        let owned = topology.owned(own).corner;
+        for k in 0..3 {
+            if owned[k]
+                && meet(&self.node[nodes[k] as usize], common)
+                && !topology.triangles()[face as usize].contains(&nodes[k])
+            {
+                let [a, b, c] = [0, 1, 2].map(|k| 3 * face + k);
+                let corners = [3 * own + k as u32, a, b, c];
+                found.push(ClothPair { features: Features::VertexFace, corners });
+            }
+        }
+    }
+}
+
+fn meet(a: &Aabb, b: &Aabb) -> bool {
+    (a.mins.cmple(b.maxs) & b.mins.cmple(a.maxs)).all()
+}

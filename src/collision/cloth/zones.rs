@@ -1,0 +1,144 @@
+//! The fail-safe of collision: what touches moves as one.
+//!
+//! Nodes of features that still run into one another are put into one zone
+//! ([`HVTG08`](crate::papers::HVTG08)), which moves as a whole by its mean way: what does not move
+//! against one another does not meet. A zone that an obstacle runs into rides on the obstacle. Zones
+//! grow until nothing meets any more; as each round joins zones or puts one on an obstacle, there is
+//! an end.
+
+use glam::DVec3;
+
+use super::stop::ClothSearch;
+use crate::collision::impact::Impact;
+use crate::collision::motion::ObstacleMotion;
+use crate::collision::resolve::MovedCloth;
+
+/// Rounds; where it takes more, cloth is caught between obstacles.
+const ROUNDS_MAX: usize = 48;
+
+/// Groups of nodes that move as one.
+pub(in crate::collision) struct Zones {
+    parent: Vec<u32>,
+    /// Per first node of a zone: the obstacle it rides on, and the obstacle's way where it was met
+    /// (m, own space).
+    carrier: Vec<Option<(usize, DVec3)>>,
+    /// Where and how fast nodes would end by themselves.
+    free_position: Vec<DVec3>,
+    free_velocity: Vec<DVec3>,
+}
+
+impl Zones {
+    /// Every node by itself.
+    pub fn new(cloth: &MovedCloth<'_>) -> Self {
+        let count = cloth.position.len();
+        Self {
+            parent: (0..count as u32).collect(),
+            carrier: vec![None; count],
+            free_position: cloth.position.to_vec(),
+            free_velocity: cloth.velocity.to_vec(),
+        }
+    }
+
+    /// Lets zones grow until nothing meets; returns the impacts left, which obstacles that hold the
+    /// same cloth leave no way out of. `of_obstacles` finds impacts on obstacles with one of some
+    /// nodes.
+    pub fn settle(
+        mut self,
+        cloth: &mut MovedCloth<'_>,
+        search: &mut ClothSearch<'_>,
+        obstacles: &[ObstacleMotion],
+        of_obstacles: impl Fn(&MovedCloth<'_>, Option<&[bool]>) -> Vec<Impact>,
+    ) -> usize {
+        let mut among: Option<Vec<bool>> = None;
+        for _ in 0..ROUNDS_MAX {
+            let mut changed = Vec::new();
+            let mut left = 0;
+            for impact in search.impacts(cloth, among.as_deref()) {
+                self.join(&impact.nodes, &mut changed);
+            }
+            for impact in of_obstacles(cloth, among.as_deref()) {
+                self.join(&impact.weights.map(|(node, _)| node), &mut changed);
+                let zone = self.zone(impact.weights[0].0);
+                match self.carrier[zone] {
+                    None => {
+                        let way = own_way(&impact, &obstacles[impact.obstacle]);
+                        self.carrier[zone] = Some((impact.obstacle, way));
+                        changed.push(zone);
+                    }
+                    Some(_) => left += 1,
+                }
+            }
+            if changed.is_empty() {
+                return left;
+            }
+            among = Some(self.place(cloth, obstacles, &changed));
+        }
+        search.impacts(cloth, None).len() + of_obstacles(cloth, None).len()
+    }
+
+    /// Makes one zone of several nodes'.
+    fn join(&mut self, nodes: &[usize], changed: &mut Vec<usize>) {
+        for pair in nodes.windows(2) {
+            let (a, b) = (self.zone(pair[0]), self.zone(pair[1]));
+            if a != b {
+                // The smaller stands for both, so that the order of joining does not matter.
+                let (kept, other) = (a.min(b), a.max(b));
+                self.parent[other] = kept as u32;
+                self.carrier[kept] = self.carrier[kept].or(self.carrier[other]);
+                changed.push(kept);
+            }
+        }
+    }
+
+    fn zone(&mut self, node: usize) -> usize {
+        let mut at = node;
+        while self.parent[at] as usize != at {
+            self.parent[at] = self.parent[self.parent[at] as usize];
+            at = self.parent[at] as usize;
+        }
+        at
+    }
+
+    /// Puts the nodes of changed zones where their zones go; returns which these are.
+    fn place(
+        &mut self,
+        cloth: &mut MovedCloth<'_>,
+        obstacles: &[ObstacleMotion],
+        changed: &[usize],
+    ) -> Vec<bool> {
+        let count = self.parent.len();
+        let mut is_changed = vec![false; count];
+        for &node in changed {
+            let zone = self.zone(node);
+            is_changed[zone] = true;
+        }
+        let zones: Vec<usize> = (0..count).map(|node| self.zone(node)).collect();
+        let mut sums = vec![(0.0, DVec3::ZERO, DVec3::ZERO); count];
+        for (node, &zone) in zones.iter().enumerate().filter(|(_, z)| is_changed[**z]) {
+            let mass = cloth.mass[node];
+            let way = self.free_position[node] - cloth.position_at_start[node];
+            let sum = &mut sums[zone];
+            *sum = (sum.0 + mass, sum.1 + way * mass, sum.2 + self.free_velocity[node] * mass);
+        }
+        for (node, &zone) in zones.iter().enumerate().filter(|(_, z)| is_changed[**z]) {
+            let start = cloth.position_at_start[node];
+            if let Some((number, own_way)) = self.carrier[zone] {
+                let obstacle = &obstacles[number];
+                let own = obstacle.point_in_own_at_start(start) + own_way;
+                cloth.position[node] = obstacle.end.transform_point(own);
+                cloth.velocity[node] = (cloth.position[node] - start) / obstacle.duration;
+            } else {
+                let (mass, way, momentum) = sums[zone];
+                cloth.position[node] = start + way / mass.max(f64::MIN_POSITIVE);
+                cloth.velocity[node] = momentum / mass.max(f64::MIN_POSITIVE);
+            }
+        }
+        zones.into_iter().map(|zone| is_changed[zone]).collect()
+    }
+}
+
+/// The way of an obstacle's touching point in its own space (m); none where the obstacle is rigid.
+fn own_way(impact: &Impact, obstacle: &ObstacleMotion) -> DVec3 {
+    let start = impact.surface_point - impact.surface_velocity * obstacle.duration;
+    obstacle.point_in_own_at_end(impact.surface_point) - obstacle.point_in_own_at_start(start)
+}

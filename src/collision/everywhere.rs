@@ -1,0 +1,55 @@
+//! Stops cloth at cloth and at obstacles together: what one moves may run into the other.
+
+use glam::DVec3;
+
+use super::cloth::{ClothSearch, Zones, stop_cloth};
+use super::face_tree::FaceTree;
+use super::motion::ObstacleMotion;
+use super::near::NearMemory;
+use super::resolve::MovedCloth;
+use super::stop::{Stops, found_impacts, stop_at_obstacles};
+use crate::scene::Contact;
+
+/// Passes over cloth and obstacles in turn; what is left then moves as one with what it meets.
+const PASSES: usize = 3;
+
+/// What obstacles and cloth are looked up in.
+pub(super) struct Surroundings<'a> {
+    pub tree: &'a FaceTree,
+    pub obstacles: &'a [ObstacleMotion],
+    pub memory: &'a NearMemory,
+    pub settings: &'a Contact,
+}
+
+/// Stops the cloth where it would pass through itself, and then wherever that leads. It has been
+/// stopped at the obstacles before.
+pub(super) fn stop_everywhere(
+    cloth: &mut MovedCloth<'_>,
+    search: &mut ClothSearch<'_>,
+    around: &Surroundings<'_>,
+) -> Stops {
+    let Surroundings { tree, obstacles, memory, settings } = *around;
+    let mut stops = Stops::default();
+    let mut among: Option<Vec<bool>> = None;
+    for _ in 0..PASSES {
+        let at_cloth = stop_cloth(cloth, search, among.as_deref());
+        stops.impacts += at_cloth.impacts;
+        let before: Vec<DVec3> = cloth.position.to_vec();
+        if at_cloth.impacts > 0 {
+            let moved = Some(at_cloth.moved.as_slice());
+            let at_obstacles = stop_at_obstacles(cloth, tree, obstacles, memory, settings, moved);
+            stops.impacts += at_obstacles.impacts;
+        }
+        let moved: Vec<bool> = before.iter().zip(&*cloth.position).map(|(a, b)| a != b).collect();
+        if !at_cloth.is_left && !moved.contains(&true) {
+            return stops;
+        }
+        // What is left may not be among those that moved last.
+        among = (!at_cloth.is_left).then_some(moved);
+    }
+    let of_obstacles = |cloth: &MovedCloth<'_>, among: Option<&[bool]>| {
+        found_impacts(cloth, tree, obstacles, memory, settings, among)
+    };
+    stops.unresolved = Zones::new(cloth).settle(cloth, search, obstacles, of_obstacles);
+    stops
+}
