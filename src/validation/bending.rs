@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use super::cantilever::{ELASTICA, LENGTH, ratios};
 use super::sheet::{Layout, Sheet};
 use super::specimen::{Rest, Specimen};
-use super::{ExperimentError, GRAVITY};
+use super::{ExperimentError, GRAVITY, fabric};
 use crate::dynamics::{StepState, System};
 use crate::mesh::{Id, Mesh, RawMesh};
 use crate::scene::{BendingModel, ElasticFabric, Fabric, IsotropicSheet};
@@ -62,7 +62,7 @@ pub fn droop(trial: Trial) -> Result<Droop, ExperimentError> {
         columns: Vec::new(),
     };
     let half = sheet.mesh(|u| u.extend(0.0));
-    let mut strip = Specimen::new(mirrored(&half), &fabric(trial.model, trial.slenderness));
+    let mut strip = Specimen::new(mirrored(&half), &homogeneous(trial.model, trial.slenderness));
     strip.clamp(|u| u.x == 0.0);
     let gravity = |gamma: f64| DVec3::NEG_Z * (gamma * RIGIDITY / (DENSITY * LENGTH.powi(3)));
     let rest = |strip: &Specimen| Rest {
@@ -131,18 +131,18 @@ pub fn curled(model: BendingModel) -> (System, StepState) {
         let (sine, cosine) = (u.x / radius).sin_cos();
         DVec3::new(radius * sine, u.y, radius * cosine)
     });
-    let system = System::new(&[&mesh], &[&fabric(model, 100.0)]);
+    let system = System::new(&[&mesh], &[&homogeneous(model, 100.0)]);
     (system, StepState::gathered(&[&mesh]))
 }
 
-fn fabric(bending_model: BendingModel, slenderness: f64) -> Fabric {
+fn homogeneous(model: BendingModel, slenderness: f64) -> Fabric {
     let sheet = IsotropicSheet {
         density: DENSITY,
         membrane_stiffness: 12.0 * RIGIDITY * (slenderness / LENGTH).powi(2),
         poisson_ratio: 0.0,
         bending_rigidity: RIGIDITY,
     };
-    Fabric::Elastic(ElasticFabric { bending_model, ..sheet.fabric() })
+    fabric::bending_by(model, sheet)
 }
 
 /// A flat sheet at u >= 0 and its mirror image, one across the line u = 0.

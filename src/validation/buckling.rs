@@ -10,9 +10,10 @@ use glam::{DVec2, DVec3};
 use super::sheet::{Layout, Sheet};
 use super::specimen::{Rest, Specimen};
 use super::{Claim, Experiment, ExperimentError, fabric};
+use crate::scene::{BendingModel, IsotropicSheet};
 
 /// nu and Gamma_c.
-const ONSETS: [(f64, f64); 4] = [(0.0, 18.178), (0.2, 16.594), (0.3, 15.943), (0.35, 15.645)];
+pub const ONSETS: [(f64, f64); 4] = [(0.0, 18.178), (0.2, 16.594), (0.3, 15.943), (0.35, 15.645)];
 
 const LENGTH: f64 = 0.4;
 const WIDTH: f64 = LENGTH / 28.0;
@@ -34,7 +35,8 @@ pub fn experiments() -> Vec<Experiment> {
     let of = |layout: Layout, (nu, onset): (f64, f64)| {
         let name = format!("buckling-onset/nu-{nu}/{}", layout.name());
         let claim = Claim::relative(name, onset, TOLERANCE);
-        Experiment::new(vec![claim], move || Ok(vec![onset_of(layout, nu)?]))
+        let model = BendingModel::default();
+        Experiment::new(vec![claim], move || Ok(vec![onset_of(model, layout, nu)?]))
     };
     let all = |layout: Layout| ONSETS.map(|onset| of(layout, onset));
     all(Layout::Aligned).into_iter().chain(all(Layout::Irregular)).collect()
@@ -44,8 +46,11 @@ pub fn experiments() -> Vec<Experiment> {
 /// Gamma / (1 - (Gamma / Gamma_c)^2), for a load and its opposite buckle alike; so Gamma over the
 /// way, as a straight line in Gamma^2, ends at Gamma_c^2. A first line is drawn through small loads,
 /// others ever closer to where it ends.
-fn onset_of(layout: Layout, nu: f64) -> Result<f64, ExperimentError> {
-    let mut strip = upright(layout, nu);
+///
+/// # Errors
+/// If the strip does not come to rest under a load, or does not yield more under more.
+pub fn onset_of(model: BendingModel, layout: Layout, nu: f64) -> Result<f64, ExperimentError> {
+    let mut strip = upright(model, layout, nu);
     let mut stiffness = |gamma: f64| -> Result<f64, ExperimentError> {
         Ok(gamma / sideways(&mut strip, gamma, nu)?)
     };
@@ -79,7 +84,7 @@ fn sideways(strip: &mut Specimen, gamma: f64, nu: f64) -> Result<f64, Experiment
 }
 
 /// Clamped at u = 0 like the cantilever.
-fn upright(layout: Layout, nu: f64) -> Specimen {
+fn upright(model: BendingModel, layout: Layout, nu: f64) -> Specimen {
     let cell = WIDTH / CELLS_ACROSS;
     let sheet = Sheet {
         origin: DVec2::new(-0.5 * cell, -0.5 * WIDTH),
@@ -88,8 +93,13 @@ fn upright(layout: Layout, nu: f64) -> Specimen {
         layout,
         columns: vec![0.5 * cell],
     };
-    let stretching = fabric::homogeneous_stretching(RIGIDITY, nu, THICKNESS);
-    let fabric = fabric::isotropic(RIGIDITY, stretching, nu, DENSITY);
+    let isotropic = IsotropicSheet {
+        density: DENSITY,
+        membrane_stiffness: fabric::homogeneous_stretching(RIGIDITY, nu, THICKNESS),
+        poisson_ratio: nu,
+        bending_rigidity: RIGIDITY,
+    };
+    let fabric = fabric::bending_by(model, isotropic);
     let mut strip = Specimen::new(sheet.mesh(|u| DVec3::new(u.x, 0.0, u.y)), &fabric);
     strip.clamp(|u| u.x < 0.75 * cell);
     strip

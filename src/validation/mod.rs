@@ -5,7 +5,7 @@
 //! layout and [`specimen`]s that are clamped, loaded and brought to rest.
 
 pub mod bending;
-mod buckling;
+pub mod buckling;
 mod cantilever;
 mod cantilever_remeshed;
 mod capstan;
