@@ -1,4 +1,4 @@
-//! Writes the generated files of the shot that comes with the program.
+//! Writes the generated files of the shots in `assets`.
 //!
 //! `cargo run --example make_assets` from the project's folder. Everything is drawn from the
 //! numbers in `make_assets/`; the same numbers give the same files.
@@ -10,7 +10,7 @@ use std::{fs, io};
 mod make_assets;
 
 fn main() -> io::Result<()> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/own-shot");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
     for (name, text) in make_assets::files() {
         let path = folder.join(name);
         fs::create_dir_all(path.parent().expect("every file is in the folder"))?;
