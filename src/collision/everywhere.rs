@@ -7,7 +7,7 @@ use super::face_tree::FaceTree;
 use super::motion::ObstacleMotion;
 use super::near::NearMemory;
 use super::resolve::MovedCloth;
-use super::stop::{Stops, found_impacts, stop_at_obstacles};
+use super::stop::{Stops, cut_faces, found_impacts, stop_at_obstacles};
 use crate::scene::Contact;
 
 /// Passes over cloth and obstacles in turn; what is left then moves as one with what it meets.
@@ -22,14 +22,14 @@ pub(super) struct Surroundings<'a> {
 }
 
 /// Stops the cloth where it would pass through itself, and then wherever that leads. It has been
-/// stopped at the obstacles before.
+/// stopped at the obstacles before: `stops` is what that did, the result what both did.
 pub(super) fn stop_everywhere(
     cloth: &mut MovedCloth<'_>,
     search: &mut ClothSearch<'_>,
     around: &Surroundings<'_>,
+    mut stops: Stops,
 ) -> Stops {
     let Surroundings { tree, obstacles, memory, settings } = *around;
-    let mut stops = Stops::default();
     let mut among: Option<Vec<bool>> = None;
     for _ in 0..PASSES {
         let at_cloth = stop_cloth(cloth, search, among.as_deref());
@@ -39,6 +39,7 @@ pub(super) fn stop_everywhere(
             let moved = Some(at_cloth.moved.as_slice());
             let at_obstacles = stop_at_obstacles(cloth, tree, obstacles, memory, settings, moved);
             stops.impacts += at_obstacles.impacts;
+            stops.unresolved = stops.unresolved.max(at_obstacles.unresolved);
         }
         let moved: Vec<bool> = before.iter().zip(&*cloth.position).map(|(a, b)| a != b).collect();
         if !at_cloth.is_left && !moved.contains(&true) {
@@ -50,6 +51,7 @@ pub(super) fn stop_everywhere(
     let of_obstacles = |cloth: &MovedCloth<'_>, among: Option<&[bool]>| {
         found_impacts(cloth, tree, obstacles, memory, settings, among)
     };
-    stops.unresolved = Zones::new(cloth).settle(cloth, search, obstacles, of_obstacles);
+    let left = Zones::new(cloth).settle(cloth, search, obstacles, of_obstacles);
+    stops.unresolved = left + cut_faces(cloth, obstacles);
     stops
 }

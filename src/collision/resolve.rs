@@ -16,7 +16,7 @@ use super::motion::{At, ObstacleMotion};
 use super::near::{Known, NearMemory};
 use super::proximity::{Cloth, ObstacleCorner, is_inside_another, obstacle_corner};
 use super::shape::Nearest;
-use super::stop::stop_at_obstacles;
+use super::stop::{Stops, stop_at_obstacles};
 use crate::scene::Contact;
 
 /// Cloth is led out to this share of the contact thickness; the penalty layer does the rest.
@@ -57,7 +57,7 @@ pub enum Depth {
 pub struct Resolution {
     /// Nodes, edges and faces that had to be led out or stopped.
     pub impacts: usize,
-    /// Those that could not be: caught between obstacles.
+    /// Those that could not be: caught between obstacles, or between layers that these hold.
     pub unresolved: usize,
 }
 
@@ -89,20 +89,19 @@ pub fn resolve(
             break;
         }
     }
+    let mut stops = Stops::default();
     if depth == Depth::OfTheStep {
-        let stops = stop_at_obstacles(cloth, tree, obstacles, memory, settings, None);
-        resolution.impacts += stops.impacts;
-        resolution.unresolved = stops.unresolved;
+        stops = stop_at_obstacles(cloth, tree, obstacles, memory, settings, None);
     }
     if let Some(own) = own {
         if depth == Depth::Any {
             own.expect_rest(tree, cloth.position_at_start, settings);
         }
         let around = Surroundings { tree, obstacles, memory, settings };
-        let stops = stop_everywhere(cloth, &mut own.search(tree, settings), &around);
-        resolution.impacts += stops.impacts;
-        resolution.unresolved += stops.unresolved;
+        stops = stop_everywhere(cloth, &mut own.search(tree, settings), &around, stops);
     }
+    resolution.impacts += stops.impacts;
+    resolution.unresolved = stops.unresolved;
     tree.refit(cloth.position, cloth.faces);
     resolution
 }

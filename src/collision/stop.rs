@@ -18,7 +18,7 @@ use super::search::{SweptCloth, impacts};
 use crate::scene::Contact;
 
 /// Cloth that comes as close as this, in contact thicknesses, touches.
-const TOUCH_IN_THICKNESSES: f64 = 1e-3;
+pub(super) const TOUCH_IN_THICKNESSES: f64 = 1e-3;
 
 /// Rounds of impacts one by one. A sheet on a needle, a box or a sphere needs two or three.
 const IMPACT_ROUNDS: usize = 8;
@@ -88,7 +88,7 @@ pub(super) fn stop_in_rounds(
 
 /// Faces that an obstacle which moves its points by itself cuts at the end of the step. Where it
 /// folds into itself or turns inside out, outside and inside change places, and no impact tells.
-fn cut_faces(cloth: &MovedCloth<'_>, obstacles: &[ObstacleMotion]) -> usize {
+pub(super) fn cut_faces(cloth: &MovedCloth<'_>, obstacles: &[ObstacleMotion]) -> usize {
     let of = |obstacle: &ObstacleMotion| {
         let corners = |face: &[u32; 3]| face.map(|n| cloth.position[n as usize]);
         let is_cut = |face: &&[u32; 3]| obstacle.is_crossed_at_end(corners(face));

@@ -8,7 +8,7 @@ use crate::remesh::{Change, EditGuard};
 use crate::scene::{Contact, Pose, Surface};
 
 /// The cube from -1 to 1.
-fn cube() -> Surface {
+pub(super) fn cube() -> Surface {
     let corner = |i: u32| {
         let axis = |bit: u32| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
         DVec3::new(axis(0), axis(1), axis(2))

@@ -77,7 +77,7 @@ pub struct FrameReport {
     pub view_factor_min: f64,
     /// Weighted by material area.
     pub view_factor_mean: f64,
-    /// Intersecting triangle pairs at the end of the frame; `None` unless counted.
+    /// Edges of cloth that pass through faces of cloth at the end of the frame; `None` unless counted.
     pub intersections: Option<usize>,
     /// Steps taken; more than asked for where steps were halved.
     pub steps_taken: u32,
@@ -93,12 +93,23 @@ pub struct FrameReport {
     pub warnings: Vec<String>,
 }
 
+impl FrameReport {
+    /// Says in how many places cloth could not be stopped.
+    pub(super) fn warn_of_passing(&mut self, places: usize) {
+        if places > 0 {
+            self.warnings.push(format!(
+                "cloth passes through obstacles or cloth in {places} places that leave it no way out"
+            ));
+        }
+    }
+}
+
 /// What the stages did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StageCounts {
     /// Contacts that pushed in the last step.
     pub contacts: u64,
-    /// Nodes and faces that had to be led out of obstacles.
+    /// Features that had to be led out of obstacles, or stopped at obstacles or other cloth.
     pub impacts: u64,
     /// Most hinges in a step that had lost their angle and resisted nothing.
     pub degenerate_hinges: u64,

@@ -89,6 +89,7 @@ impl Simulation {
         simulation.warn_of_bending(&mut report);
         simulation.settle(&mut clock, &mut report)?;
         simulation.perturb();
+        simulation.cloth.refit();
         clock.time(Stage::Collision, || simulation.clear_obstacles(&mut report));
         let frame = simulation.publish(clock, report);
         Ok((simulation, frame))
@@ -149,6 +150,7 @@ impl Simulation {
         let start = self.cloth.state.position.clone();
         let done = self.cloth.lead_out(&start, &obstacles, &self.scene.contact, Depth::Any);
         report.counts.impacts += done.impacts as u64;
+        report.warn_of_passing(done.unresolved);
         if done.impacts > 0 {
             self.cloth.write_back(&mut self.garments);
         }

@@ -36,7 +36,7 @@ impl Simulation {
     /// Sizes and remeshes every garment at the current frame, then renews the moving cloth.
     pub(super) fn refine(&mut self, clock: &mut StageClock, report: &mut FrameReport) {
         let obstacles = self.obstacles_at_rest();
-        let cloth = self.cloth_guard();
+        let cloth = clock.time(Stage::Remesh, || self.cloth_guard());
         let guard = SurfaceGuard { obstacles: ObstacleGuard { obstacles: &obstacles }, cloth };
         let mut edits = 0;
         for index in 0..self.garments.len() {
@@ -91,7 +91,7 @@ impl Simulation {
         report: &mut FrameReport,
     ) {
         let obstacles = self.obstacles_at_rest();
-        let cloth = self.cloth_guard();
+        let cloth = clock.time(Stage::Remesh, || self.cloth_guard());
         let guard = SurfaceGuard { obstacles: ObstacleGuard { obstacles: &obstacles }, cloth };
         for index in 0..self.garments.len() {
             let length = edge_length.unwrap_or(self.scene.garments[index].sizing.edge_length_min);

@@ -163,12 +163,7 @@ impl Simulation {
                 Depth::OfTheStep,
             );
             report.counts.impacts += done.impacts as u64;
-            if done.unresolved > 0 {
-                report.warnings.push(format!(
-                    "cloth passes through obstacles or cloth in {} places, caught between obstacles",
-                    done.unresolved
-                ));
-            }
+            report.warn_of_passing(done.unresolved);
         } else {
             self.cloth.refit();
         }

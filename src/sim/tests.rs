@@ -11,6 +11,7 @@ use crate::scene::{
 use crate::shot::{CameraKey, CameraPath, Lens, Track};
 
 mod frame_to_frame;
+mod layers;
 
 /// A one metre sheet of two by two cells in the plane z = 0.5.
 fn sheet() -> Mesh {

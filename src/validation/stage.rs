@@ -40,7 +40,7 @@ impl Step {
     }
 }
 
-/// In a vacuum, without obstacles: 5 ms a step.
+/// In a vacuum, without obstacles and contact of cloth with cloth: 5 ms a step.
 pub fn scene(garments: Vec<Garment>) -> Scene {
     Scene {
         name: "experiment".into(),

@@ -57,7 +57,7 @@ fn contact(
         return None;
     }
     let offset = weighted(cloth.position, nodes, near.weights);
-    if !is_own(cloth, topology, pair, near.weights, offset) {
+    if !is_own(cloth, topology, layers, pair, near.weights, offset) {
         return None;
     }
     let thickness = layers.thickness(pair, nodes, near.weights, settings.thickness);
@@ -88,6 +88,7 @@ fn are_apart(features: Features, [a, b, c, d]: [DVec3; 4], reach: f64) -> bool {
 fn is_own(
     cloth: Cloth<'_>,
     topology: &Topology,
+    layers: &Layers,
     pair: ClothPair,
     weights: [f64; 4],
     offset: DVec3,
@@ -108,10 +109,28 @@ fn is_own(
                     let edge = topology.edges_of(face)[k];
                     topology.owned(face).edge[k] && !leans(cloth, topology, edge, -offset)
                 }
+                // Node over node: the smaller answers.
+                (2, _) => {
+                    let [node, a, b, c] = pair.nodes(topology);
+                    let k = (0..3).find(|&k| !zero[k]).unwrap_or(0);
+                    let corner = [a, b, c][k];
+                    topology.owned(face).corner[k]
+                        && node < corner
+                        && !has_nearer_neighbour(cloth, layers, corner, offset)
+                        && !has_nearer_neighbour(cloth, layers, node, -offset)
+                }
                 _ => false,
             }
         }
     }
+}
+
+/// Whether an edge at a node leads towards what is `offset` away from it.
+fn has_nearer_neighbour(cloth: Cloth<'_>, layers: &Layers, node: usize, offset: DVec3) -> bool {
+    layers.neighbours(node).iter().any(|&n| {
+        let edge = cloth.position[n as usize] - cloth.position[node];
+        edge.dot(offset) > LEANING_MAX * edge.length() * offset.length()
+    })
 }
 
 /// The edge of a face from one of its corners to another.

@@ -10,9 +10,9 @@ use crate::mesh::{Mesh, Panels};
 /// distance there at most: a fold may close on itself, and flat cloth is at ease.
 const SHARE_OF_FLAT_DISTANCE: f64 = 0.5;
 
-/// Features that a seam joins, and whose distance along the cloth is therefore not known, are held
-/// off by this share of the contact thickness.
-const SHARE_ACROSS_SEAM: f64 = 0.1;
+/// Features that an edge joins are held off by this share of the contact thickness at most: across a
+/// seam, also of a panel with itself, their distance along the cloth is not that in the flat cloth.
+const SHARE_OF_JOINED: f64 = 0.1;
 
 /// All garments' faces in one numbering, in the flat cloth and as neighbours.
 pub struct Layers {
@@ -49,14 +49,20 @@ impl Layers {
         weights: [f64; 4],
         thickness: f64,
     ) -> f64 {
-        let [a, b] = pair.faces().map(|f| self.panel[f]);
-        if a == b {
-            let flat: DVec2 = (0..4).map(|k| self.material_at(pair.corners[k]) * weights[k]).sum();
-            return thickness.min(SHARE_OF_FLAT_DISTANCE * flat.length());
-        }
         let (one, other) = pair.split(nodes);
         let is_joined = one.iter().any(|&a| other.iter().any(|&b| self.are_neighbours(a, b)));
-        if is_joined { SHARE_ACROSS_SEAM * thickness } else { thickness }
+        let thickness = if is_joined { SHARE_OF_JOINED * thickness } else { thickness };
+        let [a, b] = pair.faces().map(|f| self.panel[f]);
+        if a != b {
+            return thickness;
+        }
+        let flat: DVec2 = (0..4).map(|k| self.material_at(pair.corners[k]) * weights[k]).sum();
+        thickness.min(SHARE_OF_FLAT_DISTANCE * flat.length())
+    }
+
+    /// The nodes that a node shares an edge with, ascending.
+    pub(super) fn neighbours(&self, node: usize) -> &[u32] {
+        &self.neighbour[self.first[node] as usize..self.first[node + 1] as usize]
     }
 
     fn material_at(&self, corner: u32) -> DVec2 {
@@ -64,8 +70,7 @@ impl Layers {
     }
 
     fn are_neighbours(&self, a: usize, b: usize) -> bool {
-        let range = self.first[a] as usize..self.first[a + 1] as usize;
-        self.neighbour[range].binary_search(&(b as u32)).is_ok()
+        self.neighbours(a).binary_search(&(b as u32)).is_ok()
     }
 }
 

@@ -3,7 +3,7 @@
 //! Before the step, features of the cloth that come near one another become contacts
 //! ([`cloth_contacts`]). After it, whatever would have passed through other cloth is stopped
 //! ([`stop`]): first by impacts one by one, then, where these go on and on, by letting what touches
-//! move as one ([`zones`]), which always ends.
+//! move as one ([`zones`]).
 
 mod contacts;
 mod crossings;

@@ -3,15 +3,14 @@
 //! Impacts are resolved one by one in order of time, as inelastic ones with friction
 //! ([`BFA02`](crate::papers::BFA02)), in a few rounds: each moves nodes, which may cause others.
 
+use super::ROOM_IN_THICKNESSES;
 use super::impact::{ClothImpact, impacts};
 use super::layers::weighted;
 use super::pairs::ClothPairs;
 use crate::collision::resolve::{MovedCloth, after_impact};
+use crate::collision::stop::TOUCH_IN_THICKNESSES;
 use crate::collision::topology::Topology;
 use crate::scene::Contact;
-
-/// Cloth that comes as close as this, in contact thicknesses, touches.
-const TOUCH_IN_THICKNESSES: f64 = 1e-3;
 
 /// Cloth that was nearer than it is held off ends as near as it was, but not nearer than this, in
 /// touches; farther cloth this far off, in contact thicknesses: the penalty layer does the rest.
@@ -20,9 +19,6 @@ const FLOOR_IN_THICKNESSES: f64 = 0.05;
 
 /// Rounds of impacts one by one.
 const IMPACT_ROUNDS: usize = 6;
-
-/// Nodes that left their boxes get this much room for the next rounds, in contact thicknesses.
-const ROOM_IN_THICKNESSES: f64 = 0.1;
 
 /// What stopping did.
 #[derive(Clone, Debug, Default)]

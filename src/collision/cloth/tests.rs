@@ -270,6 +270,41 @@ fn layers_of_two_garments_are_held_apart_by_the_whole_thickness() {
 }
 
 #[test]
+fn a_lining_node_over_node_is_held_at_every_node() {
+    let mut scene = Scene::new(&[sheet(4, |u| u.extend(0.0)), sheet(4, |u| u.extend(0.004))]);
+    let contacts = scene.contacts();
+    let nodes: BTreeSet<usize> =
+        contacts.iter().flat_map(|c| c.weights().map(|(n, _)| n)).collect();
+    assert_eq!(nodes.len(), 50);
+    assert!(contacts.iter().all(|c| c.normal.z.abs() > 1.0 - 1e-12));
+}
+
+#[test]
+fn a_zone_that_a_second_obstacle_hits_is_counted_whatever_else_moves() {
+    use crate::collision::{NearMemory, ObstacleMotion, Shape};
+    // A sheet between two plates that close faster than it can leave, beside cloth that is free.
+    let between = sheet(4, |u| DVec3::new(u.x - 0.5, u.y - 0.5, 0.0));
+    let mut scene = Scene::new(&[between]);
+    let shape = std::sync::Arc::new(Shape::new(&crate::collision::tests::cube()));
+    let pose =
+        |z: f64| crate::scene::Pose { translation: DVec3::Z * z, ..crate::scene::Pose::IDENTITY };
+    let closing = |z: f64| ObstacleMotion::new(shape.clone(), pose(1.02 * z), pose(0.8 * z), DT);
+    let obstacles = [closing(1.0), closing(-1.0)];
+    let memory = NearMemory::new(scene.position.len(), 2);
+    scene.contacts();
+    let tree = FaceTree::new(&scene.position, &scene.faces);
+    scene.advance(|cloth, search| {
+        let found = |cloth: &MovedCloth<'_>, among: Option<&[bool]>| {
+            crate::collision::stop::found_impacts(
+                cloth, &tree, &obstacles, &memory, &SETTINGS, among,
+            )
+        };
+        assert!(Zones::new(cloth).settle(cloth, search, &obstacles, found) > 0);
+    });
+    assert!(scene.position.iter().all(|x| x.is_finite()));
+}
+
+#[test]
 fn crossings_are_those_that_every_pair_tells() {
     let mut scene = approaching(6.0, 3);
     scene.advance(|_, _| {});

@@ -3,8 +3,7 @@
 //! Nodes of features that still run into one another are put into one zone
 //! ([`HVTG08`](crate::papers::HVTG08)), which moves as a whole by its mean way: what does not move
 //! against one another does not meet. A zone that an obstacle runs into rides on the obstacle. Zones
-//! grow until nothing meets any more; as each round joins zones or puts one on an obstacle, there is
-//! an end.
+//! grow until nothing meets any more, or rounds run out; what then still meets is counted.
 
 use glam::DVec3;
 
@@ -13,7 +12,7 @@ use crate::collision::impact::Impact;
 use crate::collision::motion::ObstacleMotion;
 use crate::collision::resolve::MovedCloth;
 
-/// Rounds; where it takes more, cloth is caught between obstacles.
+/// Rounds; where it takes more, as along a chain of layers, what is left is reported.
 const ROUNDS_MAX: usize = 48;
 
 /// Groups of nodes that move as one.
@@ -65,11 +64,19 @@ impl Zones {
                         self.carrier[zone] = Some((impact.obstacle, way));
                         changed.push(zone);
                     }
+                    // What rides on it rests on it.
+                    Some((on, _)) if on == impact.obstacle && obstacles[on].is_rigid() => {}
                     Some(_) => left += 1,
                 }
             }
-            if changed.is_empty() {
-                return left;
+            match (changed.is_empty(), &among) {
+                (true, None) => return left,
+                // What was left in an earlier round need not be among what moved last.
+                (true, Some(_)) => {
+                    among = None;
+                    continue;
+                }
+                (false, _) => {}
             }
             among = Some(self.place(cloth, obstacles, &changed));
         }

@@ -4,7 +4,7 @@ use super::*;
 
 /// All that a frame holds but its timings. Debug output tells every number from every other, and
 /// 0 from -0.
-fn bits(frame: &Frame) -> String {
+pub(super) fn bits(frame: &Frame) -> String {
     let mut untimed = frame.clone();
     untimed.report.stages = StageSeconds::default();
     untimed.report.cpu_seconds = 0.0;
@@ -12,7 +12,7 @@ fn bits(frame: &Frame) -> String {
 }
 
 /// Goes on from every frame of a run for a frame.
-fn assert_follows_from_each_frame(scene: Scene, sizing: SizingMode, frames: u32) {
+pub(super) fn assert_follows_from_each_frame(scene: Scene, sizing: SizingMode, frames: u32) {
     let straight = run(scene.clone(), sizing, frames);
     let scene = Arc::new(scene);
     for pair in straight.windows(2) {
