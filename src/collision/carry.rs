@@ -12,8 +12,8 @@ use glam::{DMat3, DVec3};
 use super::impact::{Impact, Pair};
 use super::motion::ObstacleMotion;
 use super::resolve::{FLOOR_IN_THICKNESSES, MovedCloth};
-use super::stop::again;
-use crate::scene::Contact;
+use super::stop::{Surroundings, again};
+use crate::math::outer;
 
 /// Sweeps over what a group meets, to move it out.
 const SWEEPS: usize = 8;
@@ -59,13 +59,12 @@ impl Carriers {
     pub fn carry(
         &mut self,
         cloth: &mut MovedCloth<'_>,
-        obstacles: &[ObstacleMotion],
-        settings: &Contact,
+        around: &Surroundings<'_>,
         found: &[Impact],
         moves: &mut [bool],
     ) -> usize {
         for impact in found {
-            let obstacle = &obstacles[impact.obstacle];
+            let obstacle = &around.obstacles[impact.obstacle];
             if obstacle.is_rigid() {
                 self.fix(cloth, obstacle, impact, moves);
             } else {
@@ -74,7 +73,7 @@ impl Carriers {
         }
         for number in 0..self.groups.len() {
             if std::mem::take(&mut self.groups[number].is_hit) {
-                self.move_group(number, cloth, obstacles, settings, moves);
+                self.move_group(number, cloth, around, moves);
             }
         }
         moves.iter().filter(|&&m| m).count()
@@ -92,7 +91,7 @@ impl Carriers {
         for (node, _) in impact.weights {
             if self.by_node[node] != carrier {
                 self.by_node[node] = carrier;
-                place(cloth, obstacle, node, DVec3::ZERO);
+                place_along(cloth, obstacle, node, DVec3::ZERO);
                 moves[node] = true;
             }
         }
@@ -133,42 +132,36 @@ impl Carriers {
         &mut self,
         number: usize,
         cloth: &mut MovedCloth<'_>,
-        obstacles: &[ObstacleMotion],
-        settings: &Contact,
+        around: &Surroundings<'_>,
         moves: &mut [bool],
     ) {
         let (group, by_node) = (&mut self.groups[number], &self.by_node);
         // Others may have gone over to another obstacle.
         group.nodes.retain(|&n| by_node[n].is_some_and(|c| c.group == Some(number)));
         group.rounds += 1;
-        let obstacle = &obstacles[group.obstacle];
+        let obstacle = &around.obstacles[group.obstacle];
         let own = |n: usize| obstacle.point_in_own_at_start(cloth.position_at_start[n]);
         let starts: Vec<DVec3> = group.nodes.iter().map(|&n| own(n)).collect();
         let way = CommonWay::new(obstacle, &group.pairs, &starts);
         for (&node, start) in group.nodes.iter().zip(starts) {
-            place(cloth, obstacle, node, way.at(start));
+            place_along(cloth, obstacle, node, way.at(start));
             moves[node] = true;
         }
-        group.move_out(cloth, obstacles, settings);
+        group.move_out(cloth, around);
     }
 }
 
 impl Group {
     /// Out of what it still meets.
-    fn move_out(
-        &self,
-        cloth: &mut MovedCloth<'_>,
-        obstacles: &[ObstacleMotion],
-        settings: &Contact,
-    ) {
-        let obstacle = &obstacles[self.obstacle];
-        let floor = FLOOR_IN_THICKNESSES * settings.thickness;
+    fn move_out(&self, cloth: &mut MovedCloth<'_>, around: &Surroundings<'_>) {
+        let obstacle = &around.obstacles[self.obstacle];
+        let floor = FLOOR_IN_THICKNESSES * around.settings.thickness;
         // More than the longest way is never needed.
         let margin = (floor * 2f64.powi(self.rounds - 1)).min(floor + obstacle.own_way_max());
         for _ in 0..SWEEPS {
             let mut is_out = true;
             for &pair in &self.pairs {
-                let Some(impact) = again(cloth, obstacles, settings, pair, self.obstacle) else {
+                let Some(impact) = again(cloth, around, pair, self.obstacle) else {
                     continue;
                 };
                 let touching = impact.weights.iter().map(|&(n, w)| cloth.position[n] * w);
@@ -189,7 +182,12 @@ impl Group {
 
 /// Puts a node where the obstacle's pose carries it from the start, but for a way in the obstacle's
 /// own space.
-fn place(cloth: &mut MovedCloth<'_>, obstacle: &ObstacleMotion, node: usize, own_way: DVec3) {
+pub(super) fn place_along(
+    cloth: &mut MovedCloth<'_>,
+    obstacle: &ObstacleMotion,
+    node: usize,
+    own_way: DVec3,
+) {
     let start = cloth.position_at_start[node];
     let own = obstacle.point_in_own_at_start(start) + own_way;
     cloth.position[node] = obstacle.end.transform_point(own);
@@ -217,7 +215,6 @@ impl CommonWay {
             corners.iter().map(|&c| of(c)).sum::<DVec3>() / corners.len() as f64
         };
         let (middle, mean_way) = (mean(&start), mean(&way));
-        let outer = |a: DVec3, b: DVec3| DMat3::from_cols(a * b.x, a * b.y, a * b.z);
         let (mut spread, mut slope) = (DMat3::ZERO, DMat3::ZERO);
         for &c in &corners {
             let arm = start(c) - middle;

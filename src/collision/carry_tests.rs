@@ -11,7 +11,7 @@ use crate::collision::motion::ObstacleMotion;
 use crate::collision::near::NearMemory;
 use crate::collision::resolve::MovedCloth;
 use crate::collision::shape::Shape;
-use crate::collision::stop::{Stops, stop_in_rounds};
+use crate::collision::stop::{Stops, Surroundings, stop_in_rounds};
 use crate::math::Random;
 use crate::scene::{Contact, Pose, Surface};
 
@@ -166,7 +166,8 @@ fn stopped(patch: &Patch, obstacle: &ObstacleMotion, rounds: [usize; 2]) -> (Vec
     };
     let memory = NearMemory::new(nodes, 1);
     let obstacles = std::slice::from_ref(obstacle);
-    let stops = stop_in_rounds(&mut cloth, &tree, obstacles, &memory, &SETTINGS, None, rounds);
+    let around = Surroundings { tree: &tree, obstacles, memory: &memory, settings: &SETTINGS };
+    let stops = stop_in_rounds(&mut cloth, &around, None, rounds);
     assert!(position.iter().chain(&velocity).all(|v| v.is_finite()));
     (position, stops)
 }

@@ -3,23 +3,11 @@
 use glam::DVec3;
 
 use super::cloth::{ClothSearch, Zones, stop_cloth};
-use super::face_tree::FaceTree;
-use super::motion::ObstacleMotion;
-use super::near::NearMemory;
 use super::resolve::MovedCloth;
-use super::stop::{Stops, cut_faces, found_impacts, stop_at_obstacles};
-use crate::scene::Contact;
+use super::stop::{Stops, Surroundings, cut_faces, found_impacts, stop_at_obstacles};
 
 /// Passes over cloth and obstacles in turn; what is left then moves as one with what it meets.
 const PASSES: usize = 3;
-
-/// What obstacles and cloth are looked up in.
-pub(super) struct Surroundings<'a> {
-    pub tree: &'a FaceTree,
-    pub obstacles: &'a [ObstacleMotion],
-    pub memory: &'a NearMemory,
-    pub settings: &'a Contact,
-}
 
 /// Stops the cloth where it would pass through itself, and then wherever that leads. It has been
 /// stopped at the obstacles before: `stops` is what that did, the result what both did.
@@ -29,18 +17,17 @@ pub(super) fn stop_everywhere(
     around: &Surroundings<'_>,
     mut stops: Stops,
 ) -> Stops {
-    let Surroundings { tree, obstacles, memory, settings } = *around;
     let mut among: Option<Vec<bool>> = None;
     for _ in 0..PASSES {
         let at_cloth = stop_cloth(cloth, search, among.as_deref());
-        stops.impacts += at_cloth.impacts;
-        let before: Vec<DVec3> = cloth.position.to_vec();
-        if at_cloth.impacts > 0 {
-            let moved = Some(at_cloth.moved.as_slice());
-            let at_obstacles = stop_at_obstacles(cloth, tree, obstacles, memory, settings, moved);
-            stops.impacts += at_obstacles.impacts;
-            stops.unresolved = stops.unresolved.max(at_obstacles.unresolved);
+        // Without impacts nothing is left either.
+        if at_cloth.impacts == 0 {
+            return stops;
         }
+        let before: Vec<DVec3> = cloth.position.to_vec();
+        let at_obstacles = stop_at_obstacles(cloth, around, Some(&at_cloth.moved));
+        stops.impacts += at_cloth.impacts + at_obstacles.impacts;
+        stops.unresolved = stops.unresolved.max(at_obstacles.unresolved);
         let moved: Vec<bool> = before.iter().zip(&*cloth.position).map(|(a, b)| a != b).collect();
         if !at_cloth.is_left && !moved.contains(&true) {
             return stops;
@@ -48,10 +35,9 @@ pub(super) fn stop_everywhere(
         // What is left may not be among those that moved last.
         among = (!at_cloth.is_left).then_some(moved);
     }
-    let of_obstacles = |cloth: &MovedCloth<'_>, among: Option<&[bool]>| {
-        found_impacts(cloth, tree, obstacles, memory, settings, among)
-    };
-    let left = Zones::new(cloth).settle(cloth, search, obstacles, of_obstacles);
-    stops.unresolved = left + cut_faces(cloth, obstacles);
+    let of_obstacles =
+        |cloth: &MovedCloth<'_>, among: Option<&[bool]>| found_impacts(cloth, around, among);
+    let left = Zones::new(cloth).settle(cloth, search, around.obstacles, of_obstacles);
+    stops.unresolved = left + cut_faces(cloth, around.obstacles);
     stops
 }

@@ -29,14 +29,21 @@ pub struct Touch {
 
 impl FaceTree {
     pub fn new(positions: &[DVec3], faces: &[[u32; 3]]) -> Self {
-        let boxes: Vec<Aabb> = faces.iter().map(|f| bounds(&corners(positions, f))).collect();
-        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-        Self { topology: Topology::new(faces.to_vec()), tree }
+        let mut tree = Self { topology: Topology::new(faces.to_vec()), tree: Bvh::default() };
+        tree.rebuild(positions);
+        tree
+    }
+
+    /// Becomes what a new one of the same faces would be.
+    pub fn rebuild(&mut self, positions: &[DVec3]) {
+        let faces = self.topology.triangles().iter();
+        let boxes: Vec<Aabb> = faces.map(|f| bounds(&corners(positions, f))).collect();
+        self.tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
     }
 
     /// Follows the nodes to where they are now.
-    pub fn refit(&mut self, positions: &[DVec3], faces: &[[u32; 3]]) {
-        for (index, face) in faces.iter().enumerate() {
+    pub fn refit(&mut self, positions: &[DVec3]) {
+        for (index, face) in self.topology.triangles().iter().enumerate() {
             self.tree.insert_or_update_partially(
                 bounds(&corners(positions, face)),
                 index as u32,

@@ -10,13 +10,13 @@ use parry3d_f64::bounding_volume::BoundingVolume;
 use rayon::prelude::*;
 
 use super::cloth::ClothContact;
-use super::everywhere::{Surroundings, stop_everywhere};
+use super::everywhere::stop_everywhere;
 use super::face_tree::{FaceTree, Touch};
 use super::motion::{At, ObstacleMotion};
 use super::near::{Known, NearMemory};
 use super::proximity::{Cloth, ObstacleCorner, is_inside_another, obstacle_corner};
 use super::shape::Nearest;
-use super::stop::{Stops, stop_at_obstacles};
+use super::stop::{Stops, Surroundings, stop_at_obstacles};
 use crate::scene::Contact;
 
 /// Cloth is led out to this share of the contact thickness; the penalty layer does the rest.
@@ -80,7 +80,7 @@ pub fn resolve(
         resolution.impacts += led.len();
         suspects = led;
         if depth == Depth::Any {
-            tree.refit(cloth.position, cloth.faces);
+            tree.refit(cloth.position);
             let lifted = lift_faces(cloth, tree, obstacles, settings);
             resolution.impacts += lifted.len() / 3;
             suspects.extend(&lifted);
@@ -89,20 +89,20 @@ pub fn resolve(
             break;
         }
     }
+    let around = Surroundings { tree, obstacles, memory, settings };
     let mut stops = Stops::default();
     if depth == Depth::OfTheStep {
-        stops = stop_at_obstacles(cloth, tree, obstacles, memory, settings, None);
+        stops = stop_at_obstacles(cloth, &around, None);
     }
     if let Some(own) = own {
         if depth == Depth::Any {
             own.expect_rest(tree, cloth.position_at_start, settings);
         }
-        let around = Surroundings { tree, obstacles, memory, settings };
         stops = stop_everywhere(cloth, &mut own.search(tree, settings), &around, stops);
     }
     resolution.impacts += stops.impacts;
     resolution.unresolved = stops.unresolved;
-    tree.refit(cloth.position, cloth.faces);
+    tree.refit(cloth.position);
     resolution
 }
 

@@ -27,6 +27,15 @@ const IMPACT_ROUNDS: usize = 8;
 /// farther out; where it takes more rounds, the cloth is caught.
 const CARRY_ROUNDS: usize = 24;
 
+/// What the cloth may run into, and what that is looked up in.
+#[derive(Clone, Copy)]
+pub(super) struct Surroundings<'a> {
+    pub tree: &'a FaceTree,
+    pub obstacles: &'a [ObstacleMotion],
+    pub memory: &'a NearMemory,
+    pub settings: &'a Contact,
+}
+
 /// What stopping did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Stops {
@@ -40,23 +49,17 @@ pub(super) struct Stops {
 /// since that was done before, `None` if it was not.
 pub(super) fn stop_at_obstacles(
     cloth: &mut MovedCloth<'_>,
-    tree: &FaceTree,
-    obstacles: &[ObstacleMotion],
-    memory: &NearMemory,
-    settings: &Contact,
+    around: &Surroundings<'_>,
     among: Option<&[bool]>,
 ) -> Stops {
     let rounds = [IMPACT_ROUNDS, CARRY_ROUNDS];
-    stop_in_rounds(cloth, tree, obstacles, memory, settings, among, rounds)
+    stop_in_rounds(cloth, around, among, rounds)
 }
 
 /// With so many rounds of impacts one by one, and so many of going along.
 pub(super) fn stop_in_rounds(
     cloth: &mut MovedCloth<'_>,
-    tree: &FaceTree,
-    obstacles: &[ObstacleMotion],
-    memory: &NearMemory,
-    settings: &Contact,
+    around: &Surroundings<'_>,
     among: Option<&[bool]>,
     [impact_rounds, carry_rounds]: [usize; 2],
 ) -> Stops {
@@ -64,16 +67,16 @@ pub(super) fn stop_in_rounds(
     let mut moved: Option<Vec<bool>> = among.map(<[bool]>::to_vec);
     let mut carriers = Carriers::new(cloth.position.len());
     for round in 0..impact_rounds + carry_rounds {
-        let found = found_impacts(cloth, tree, obstacles, memory, settings, moved.as_deref());
+        let found = found_impacts(cloth, around, moved.as_deref());
         if found.is_empty() {
-            stops.unresolved = cut_faces(cloth, obstacles);
+            stops.unresolved = cut_faces(cloth, around.obstacles);
             return stops;
         }
         let mut moves = vec![false; cloth.position.len()];
         stops.impacts += if round < impact_rounds {
-            resolve_in_order(cloth, obstacles, settings, &found, &mut moves)
+            resolve_in_order(cloth, around, &found, &mut moves)
         } else {
-            carriers.carry(cloth, obstacles, settings, &found, &mut moves)
+            carriers.carry(cloth, around, &found, &mut moves)
         };
         if !moves.contains(&true) {
             break;
@@ -81,8 +84,8 @@ pub(super) fn stop_in_rounds(
         // Who goes along already may be left with an impact and not move.
         moved = (round < impact_rounds).then_some(moves);
     }
-    let left = found_impacts(cloth, tree, obstacles, memory, settings, None).len();
-    stops.unresolved = left.max(cut_faces(cloth, obstacles));
+    let left = found_impacts(cloth, around, None).len();
+    stops.unresolved = left.max(cut_faces(cloth, around.obstacles));
     stops
 }
 
@@ -100,12 +103,10 @@ pub(super) fn cut_faces(cloth: &MovedCloth<'_>, obstacles: &[ObstacleMotion]) ->
 /// In order of time, then of obstacles and faces.
 pub(super) fn found_impacts(
     cloth: &MovedCloth<'_>,
-    tree: &FaceTree,
-    obstacles: &[ObstacleMotion],
-    memory: &NearMemory,
-    settings: &Contact,
+    around: &Surroundings<'_>,
     among: Option<&[bool]>,
 ) -> Vec<Impact> {
+    let Surroundings { tree, obstacles, memory, settings } = *around;
     let swept = SweptCloth { start: cloth.position_at_start, end: cloth.position, tree, among };
     let touch = TOUCH_IN_THICKNESSES * settings.thickness;
     let of = |obstacle| impacts(swept, obstacle, memory, touch);
@@ -117,8 +118,7 @@ pub(super) fn found_impacts(
 /// Resolves impacts one by one, those that are still some when it is their turn; returns how many.
 fn resolve_in_order(
     cloth: &mut MovedCloth<'_>,
-    obstacles: &[ObstacleMotion],
-    settings: &Contact,
+    around: &Surroundings<'_>,
     found: &[Impact],
     moves: &mut [bool],
 ) -> usize {
@@ -126,12 +126,12 @@ fn resolve_in_order(
     for impact in found {
         let is_stale = nodes_of(impact).any(|n| moves[n]);
         let now = if is_stale {
-            again(cloth, obstacles, settings, impact.pair, impact.obstacle)
+            again(cloth, around, impact.pair, impact.obstacle)
         } else {
             Some(*impact)
         };
         if let Some(impact) = now {
-            resolve_one(cloth, settings, &impact);
+            resolve_one(cloth, around.settings, &impact);
             nodes_of(&impact).for_each(|n| moves[n] = true);
             count += 1;
         }
@@ -142,19 +142,18 @@ fn resolve_in_order(
 /// The impact of a pair as the cloth is now.
 pub(super) fn again(
     cloth: &MovedCloth<'_>,
-    obstacles: &[ObstacleMotion],
-    settings: &Contact,
+    around: &Surroundings<'_>,
     pair: Pair,
     number: usize,
 ) -> Option<Impact> {
-    let obstacle = &obstacles[number];
+    let obstacle = &around.obstacles[number];
     let seen = |n: usize| {
         [
             obstacle.point_in_own_at_start(cloth.position_at_start[n]),
             obstacle.point_in_own_at_end(cloth.position[n]),
         ]
     };
-    let touch = TOUCH_IN_THICKNESSES * settings.thickness / obstacle.end.scale;
+    let touch = TOUCH_IN_THICKNESSES * around.settings.thickness / obstacle.end.scale;
     pair.impact((number, obstacle), &seen, touch)
 }
 

@@ -11,7 +11,8 @@ use super::matrix::BlockMatrix;
 use super::step::{StepForces, StepState};
 use super::stretch::MembraneTangent;
 use super::system::{GarmentRanges, HingeSlots, System};
-use super::{outer, wind};
+use super::wind;
+use crate::math::outer;
 use crate::scene::Air;
 
 impl System {

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::outer;
+use crate::math::outer;
 
 /// The most nodes a contact acts on: a node and a face, or two edges.
 pub const CONTACT_NODES: usize = 4;

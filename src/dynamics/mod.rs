@@ -44,10 +44,3 @@ pub use handles::HandleSpring;
 pub use solve::{Accuracy, LinearSolver, SolveError, SolverCounts};
 pub use step::{Convergence, StepError, StepForces, StepOutcome, StepState};
 pub use system::System;
-
-use glam::{DMat3, DVec3};
-
-/// a b^T.
-fn outer(a: DVec3, b: DVec3) -> DMat3 {
-    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
-}

@@ -3,8 +3,7 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use super::damping::Viscosity;
-use super::outer;
-use crate::math::{Mat3x2, SymTensor2};
+use crate::math::{Mat3x2, SymTensor2, outer};
 use crate::scene::StretchStiffness;
 
 /// What a face's membrane depends on besides positions.

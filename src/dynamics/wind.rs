@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DVec3};
 
-use super::outer;
 use super::step::StepState;
+use crate::math::outer;
 use crate::scene::Air;
 
 /// Force on a face, and how it yields to the face's velocity.

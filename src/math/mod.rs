@@ -2,6 +2,7 @@
 //! segments and triangles in space, cubics over the unit interval, random numbers.
 
 mod cubic;
+mod disjoint;
 mod mat3x2;
 mod metric;
 mod random;
@@ -10,6 +11,7 @@ mod tensor;
 mod triangle;
 
 pub use cubic::Cubic;
+pub use disjoint::DisjointSets;
 pub use mat3x2::Mat3x2;
 pub use metric::{tensor_max, tensor_max_of, tensor_min};
 pub use random::Random;
@@ -18,3 +20,10 @@ pub use tensor::{Eigen2, SymTensor2};
 pub use triangle::{
     ClosestPoint, closest_point_on_triangle, segment_passes_through, triangles_cross,
 };
+
+use glam::{DMat3, DVec3};
+
+/// a b^T.
+pub fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}

@@ -4,7 +4,8 @@
 //! name a point. Remeshing keeps the nodes which give a piece its shape, with their index in the
 //! garment's input: they tell which piece of one mesh is which of another.
 
-use super::{FaceId, IdVec, Mesh, VertexId};
+use super::{FaceId, Id, IdVec, Mesh, VertexId};
+use crate::math::DisjointSets;
 
 /// One of a garment's pieces, counted from 0.
 pub type Panel = usize;
@@ -62,26 +63,13 @@ impl Panels {
 
 /// Per vertex a vertex that stands for its piece: the same for all that faces join.
 fn roots(mesh: &Mesh) -> IdVec<VertexId, VertexId> {
-    let mut parent: IdVec<VertexId, VertexId> = mesh.vertex_ids().collect();
+    let mut pieces = DisjointSets::new(mesh.vertex_count());
     for face in mesh.face_ids() {
-        let [a, b, c] = mesh.face_vertices(face);
-        for other in [b, c] {
-            let (x, y) = (root(&mut parent, a), root(&mut parent, other));
-            // The smaller stands for both, so that the order of joining does not matter.
-            parent[x.max(y)] = x.min(y);
-        }
+        let [a, b, c] = mesh.face_vertices(face).map(VertexId::index);
+        pieces.join(a, b);
+        pieces.join(a, c);
     }
-    mesh.vertex_ids().map(|v| root(&mut parent, v)).collect()
-}
-
-/// Follows parents to the end and halves the way for the next time.
-fn root(parent: &mut IdVec<VertexId, VertexId>, vertex: VertexId) -> VertexId {
-    let mut at = vertex;
-    while parent[at] != at {
-        parent[at] = parent[parent[at]];
-        at = parent[at];
-    }
-    at
+    mesh.vertex_ids().map(|v| VertexId::from_index(pieces.root(v.index()))).collect()
 }
 
 #[cfg(test)]

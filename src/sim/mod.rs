@@ -208,7 +208,9 @@ impl MovingCloth {
         let fabrics: Vec<&Fabric> = scene.garments.iter().map(|g| &g.fabric).collect();
         let state = StepState::gathered(&meshes);
         let faces = global_faces(garments);
-        let tree = FaceTree::new(&state.position, &faces);
+        // Only obstacles and other cloth ask for faces.
+        let is_asked = !scene.obstacles.is_empty() || scene.stages.self_contact;
+        let tree = FaceTree::new(&state.position, if is_asked { &faces } else { &[] });
         let own =
             scene.stages.self_contact.then(|| ClothContact::new(garments, &tree, &state.position));
         let mut system = System::new(&meshes, &fabrics);
@@ -237,16 +239,17 @@ impl MovingCloth {
     fn forget_the_past(&mut self, garments: &[Mesh], clock: &mut StageClock) {
         self.state = StepState::gathered(&garments.iter().collect::<Vec<_>>());
         clock.time(Stage::Proximity, || {
-            self.tree = FaceTree::new(&self.state.position, &self.faces);
-            let own = |_| ClothContact::new(garments, &self.tree, &self.state.position);
-            self.own = self.own.take().map(own);
+            self.tree.rebuild(&self.state.position);
+            if let Some(own) = &mut self.own {
+                own.forget(&self.tree, &self.state.position);
+            }
         });
         self.near.forget();
         clock.time(Stage::Dynamics, || self.system.forget_the_past());
     }
 
     fn refit(&mut self) {
-        self.tree.refit(&self.state.position, &self.faces);
+        self.tree.refit(&self.state.position);
     }
 
     fn write_back(&self, garments: &mut [Mesh]) {

@@ -136,14 +136,20 @@ impl Simulation {
             area: &cloth.area,
             faces: &cloth.faces,
         };
+        if let Some(own) = &mut cloth.own {
+            own.expect_motion(seen, &cloth.tree, settings, duration);
+        }
+        if !self.scene.stages.proximity {
+            return Vec::new();
+        }
         let mut found = match obstacles.is_empty() {
             true => Vec::new(),
             false => contacts(seen, &cloth.tree, obstacles, &mut cloth.near, settings),
         };
-        if let Some(own) = &mut cloth.own {
+        if let Some(own) = &cloth.own {
             found.extend(own.contacts(seen, &cloth.tree, settings, duration));
         }
-        if self.scene.stages.proximity { found } else { Vec::new() }
+        found
     }
 
     fn resolve(

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::layers::{Layers, weighted};
-use super::pairs::ClothPair;
+use super::pairs::{ClothPair, are_apart};
 use crate::collision::continuous::{Features, nearest};
 use crate::collision::proximity::{Cloth, is_active};
 use crate::collision::topology::Topology;
@@ -47,10 +47,11 @@ fn contact(
     let place = |k: usize| cloth.position[nodes[k]];
     let way = |k: usize| (cloth.velocity[nodes[k]] - cloth.velocity[nodes[0]]).length_squared();
     let reach = settings.thickness + duration * way(1).max(way(2)).max(way(3)).sqrt();
-    if are_apart(pair.features, [0, 1, 2, 3].map(place), reach) {
+    let places = [0, 1, 2, 3].map(place);
+    if are_apart(pair.features, places, places, reach) {
         return None;
     }
-    let near = nearest(pair.features, [0, 1, 2, 3].map(place));
+    let near = nearest(pair.features, places);
     let velocity = weighted(cloth.velocity, nodes, near.weights);
     let approach = velocity.length() * duration;
     if near.distance > settings.thickness + approach || near.distance < DISTANCE_MIN {
@@ -70,16 +71,6 @@ fn contact(
         friction: settings.friction_cloth,
     };
     is_active(&contact, velocity, duration).then_some(contact)
-}
-
-/// Whether the features' boxes are farther apart than a reach (m), along one of the axes.
-fn are_apart(features: Features, [a, b, c, d]: [DVec3; 4], reach: f64) -> bool {
-    let (first, second) = match features {
-        Features::VertexFace => ((a, a), (b.min(c).min(d), b.max(c).max(d))),
-        Features::EdgeEdge => ((a.min(b), a.max(b)), (c.min(d), c.max(d))),
-    };
-    let reach = DVec3::splat(reach);
-    (first.0.cmpgt(second.1 + reach) | second.0.cmpgt(first.1 + reach)).any()
 }
 
 /// Whether the nearest points are this pair's own, and nothing beside them is nearer. Where an edge's

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::layers::weighted;
-use super::pairs::ClothPair;
+use super::pairs::{ClothPair, are_apart};
 use crate::collision::continuous::{Features, Sweep};
 use crate::collision::topology::Topology;
 
@@ -54,7 +54,9 @@ impl ClothImpact {
         tolerance: f64,
     ) -> Option<Self> {
         let sweep = Sweep { start: nodes.map(|n| start[n]), end: nodes.map(|n| end[n]) };
-        if is_apart(pair.features, &sweep, tolerance) {
+        let low = [0, 1, 2, 3].map(|k| sweep.start[k].min(sweep.end[k]));
+        let high = [0, 1, 2, 3].map(|k| sweep.start[k].max(sweep.end[k]));
+        if are_apart(pair.features, low, high, tolerance) {
             return None;
         }
         let touch = sweep.first_touch(pair.features, tolerance)?;
@@ -67,23 +69,6 @@ impl ClothImpact {
         let (weights, time) = (touch.weights, touch.time);
         Some(Self { pair, nodes, weights, time, normal, height_before })
     }
-}
-
-/// Whether the boxes around the features' ways do not meet: most pairs are told by that.
-fn is_apart(features: Features, sweep: &Sweep, tolerance: f64) -> bool {
-    let low = [0, 1, 2, 3].map(|k| sweep.start[k].min(sweep.end[k]));
-    let high = [0, 1, 2, 3].map(|k| sweep.start[k].max(sweep.end[k]));
-    let boxes = match features {
-        Features::VertexFace => {
-            [(low[0], high[0]), (low[1].min(low[2]).min(low[3]), high[1].max(high[2]).max(high[3]))]
-        }
-        Features::EdgeEdge => {
-            [(low[0].min(low[1]), high[0].max(high[1])), (low[2].min(low[3]), high[2].max(high[3]))]
-        }
-    };
-    let [(low_a, high_a), (low_b, high_b)] = boxes;
-    let slack = DVec3::splat(tolerance);
-    (low_a.cmpgt(high_b + slack) | low_b.cmpgt(high_a + slack)).any()
 }
 
 /// Unit, across both features where they touch, on the side of the offset at the start. Where they

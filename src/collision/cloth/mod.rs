@@ -19,6 +19,8 @@ pub use guard::ClothGuard;
 pub(super) use stop::{ClothSearch, stop_cloth};
 pub(super) use zones::Zones;
 
+use glam::DVec3;
+
 use contacts::cloth_contacts;
 use layers::Layers;
 use pairs::ClothPairs;
@@ -41,7 +43,7 @@ pub struct ClothContact {
 
 impl ClothContact {
     /// Of all garments, in the order of the tree's faces.
-    pub fn new(garments: &[Mesh], tree: &FaceTree, positions: &[glam::DVec3]) -> Self {
+    pub fn new(garments: &[Mesh], tree: &FaceTree, positions: &[DVec3]) -> Self {
         let topology = tree.topology();
         Self {
             layers: Layers::new(garments, topology, positions.len()),
@@ -49,26 +51,42 @@ impl ClothContact {
         }
     }
 
-    /// Pairs that are nearer than they should be, or would be within the step (s) if everything went on
-    /// as it goes; afterwards the step's impacts can be looked for.
-    pub fn contacts(
+    /// Becomes what a new one of the same garments would be.
+    pub fn forget(&mut self, tree: &FaceTree, positions: &[DVec3]) {
+        self.pairs = ClothPairs::new(positions, tree.topology());
+    }
+
+    /// Makes ready to look for contacts at the start of a step (s) and for impacts after it, if
+    /// everything goes on about as it goes.
+    pub fn expect_motion(
         &mut self,
         cloth: Cloth<'_>,
         tree: &FaceTree,
         settings: &Contact,
         duration: f64,
-    ) -> Vec<ContactPoint> {
-        let topology = tree.topology();
+    ) {
         let way = |node: usize| cloth.velocity[node] * duration;
         let reach = (0.5 + ROOM_IN_THICKNESSES) * settings.thickness;
-        self.pairs.find(topology, cloth.position, way, reach);
-        cloth_contacts(cloth, topology, &self.layers, self.pairs.found(), settings, duration)
+        self.pairs.find(tree.topology(), cloth.position, way, reach);
+    }
+
+    /// Pairs that are nearer than they should be, or would be within the step (s) that has been made
+    /// ready for.
+    pub fn contacts(
+        &self,
+        cloth: Cloth<'_>,
+        tree: &FaceTree,
+        settings: &Contact,
+        duration: f64,
+    ) -> Vec<ContactPoint> {
+        let (topology, pairs) = (tree.topology(), self.pairs.found());
+        cloth_contacts(cloth, topology, &self.layers, pairs, settings, duration)
     }
 
     /// Makes ready to look for impacts on ways from `start`, whatever they are.
-    pub fn expect_rest(&mut self, tree: &FaceTree, start: &[glam::DVec3], settings: &Contact) {
+    pub fn expect_rest(&mut self, tree: &FaceTree, start: &[DVec3], settings: &Contact) {
         let reach = ROOM_IN_THICKNESSES * settings.thickness;
-        self.pairs.find(tree.topology(), start, |_| glam::DVec3::ZERO, reach);
+        self.pairs.find(tree.topology(), start, |_| DVec3::ZERO, reach);
     }
 
     pub(super) fn search<'a>(

@@ -33,13 +33,17 @@ impl ClothPair {
 
     /// What belongs to the first feature, and what to the second.
     pub fn split<T>(self, nodes: [T; 4]) -> (Vec<T>, Vec<T>) {
-        let count = match self.features {
-            Features::VertexFace => 1,
-            Features::EdgeEdge => 2,
-        };
         let mut first = Vec::from(nodes);
-        let second = first.split_off(count);
+        let second = first.split_off(point_count_of_first(self.features));
         (first, second)
+    }
+}
+
+/// How many of the four points are the first feature's.
+fn point_count_of_first(features: Features) -> usize {
+    match features {
+        Features::VertexFace => 1,
+        Features::EdgeEdge => 2,
     }
 }
 
@@ -211,4 +215,20 @@ impl Boxes {
 
 fn meet(a: &Aabb, b: &Aabb) -> bool {
     (a.mins.cmple(b.maxs) & b.mins.cmple(a.maxs)).all()
+}
+
+/// Whether two features are farther apart than a reach (m) along one of the axes, by boxes from the
+/// low to the high corners of each of their points. Tells most pairs.
+pub(super) fn are_apart(features: Features, low: [DVec3; 4], high: [DVec3; 4], reach: f64) -> bool {
+    let box_of = |points: std::ops::Range<usize>| {
+        let lowest = low[points.clone()].iter().copied().reduce(DVec3::min);
+        (
+            lowest.unwrap_or_default(),
+            high[points].iter().copied().reduce(DVec3::max).unwrap_or_default(),
+        )
+    };
+    let first = point_count_of_first(features);
+    let (a, b) = (box_of(0..first), box_of(first..4));
+    let reach = DVec3::splat(reach);
+    (a.0.cmpgt(b.1 + reach) | b.0.cmpgt(a.1 + reach)).any()
 }

@@ -8,6 +8,7 @@ use super::zones::Zones;
 use super::*;
 use crate::collision::MovedCloth;
 use crate::collision::continuous::{Features, nearest};
+use crate::collision::stop::{Surroundings, found_impacts};
 use crate::math::{Random, segment_passes_through};
 use crate::mesh::{Mesh, RawMesh};
 use crate::remesh::{Change, EditGuard};
@@ -69,6 +70,7 @@ impl Scene {
             area: &self.area,
             faces: &self.faces,
         };
+        self.own.expect_motion(seen, &self.tree, &SETTINGS, DT);
         self.own.contacts(seen, &self.tree, &SETTINGS, DT)
     }
 
@@ -87,7 +89,7 @@ impl Scene {
         };
         stop(&mut cloth, &mut self.own.search(&self.tree, &SETTINGS));
         self.position = position;
-        self.tree.refit(&self.position, &self.faces);
+        self.tree.refit(&self.position);
     }
 
     fn crossings(&self) -> usize {
@@ -293,12 +295,11 @@ fn a_zone_that_a_second_obstacle_hits_is_counted_whatever_else_moves() {
     let memory = NearMemory::new(scene.position.len(), 2);
     scene.contacts();
     let tree = FaceTree::new(&scene.position, &scene.faces);
+    let around =
+        Surroundings { tree: &tree, obstacles: &obstacles, memory: &memory, settings: &SETTINGS };
     scene.advance(|cloth, search| {
-        let found = |cloth: &MovedCloth<'_>, among: Option<&[bool]>| {
-            crate::collision::stop::found_impacts(
-                cloth, &tree, &obstacles, &memory, &SETTINGS, among,
-            )
-        };
+        let found =
+            |cloth: &MovedCloth<'_>, among: Option<&[bool]>| found_impacts(cloth, &around, among);
         assert!(Zones::new(cloth).settle(cloth, search, &obstacles, found) > 0);
     });
     assert!(scene.position.iter().all(|x| x.is_finite()));

@@ -8,16 +8,18 @@
 use glam::DVec3;
 
 use super::stop::ClothSearch;
+use crate::collision::carry::place_along;
 use crate::collision::impact::Impact;
 use crate::collision::motion::ObstacleMotion;
 use crate::collision::resolve::MovedCloth;
+use crate::math::DisjointSets;
 
 /// Rounds; where it takes more, as along a chain of layers, what is left is reported.
 const ROUNDS_MAX: usize = 48;
 
 /// Groups of nodes that move as one.
 pub(in crate::collision) struct Zones {
-    parent: Vec<u32>,
+    sets: DisjointSets,
     /// Per first node of a zone: the obstacle it rides on, and the obstacle's way where it was met
     /// (m, own space).
     carrier: Vec<Option<(usize, DVec3)>>,
@@ -31,7 +33,7 @@ impl Zones {
     pub fn new(cloth: &MovedCloth<'_>) -> Self {
         let count = cloth.position.len();
         Self {
-            parent: (0..count as u32).collect(),
+            sets: DisjointSets::new(count),
             carrier: vec![None; count],
             free_position: cloth.position.to_vec(),
             free_velocity: cloth.velocity.to_vec(),
@@ -57,7 +59,7 @@ impl Zones {
             }
             for impact in of_obstacles(cloth, among.as_deref()) {
                 self.join(&impact.weights.map(|(node, _)| node), &mut changed);
-                let zone = self.zone(impact.weights[0].0);
+                let zone = self.sets.root(impact.weights[0].0);
                 match self.carrier[zone] {
                     None => {
                         let way = own_way(&impact, &obstacles[impact.obstacle]);
@@ -86,24 +88,11 @@ impl Zones {
     /// Makes one zone of several nodes'.
     fn join(&mut self, nodes: &[usize], changed: &mut Vec<usize>) {
         for pair in nodes.windows(2) {
-            let (a, b) = (self.zone(pair[0]), self.zone(pair[1]));
-            if a != b {
-                // The smaller stands for both, so that the order of joining does not matter.
-                let (kept, other) = (a.min(b), a.max(b));
-                self.parent[other] = kept as u32;
+            if let Some([kept, other]) = self.sets.join(pair[0], pair[1]) {
                 self.carrier[kept] = self.carrier[kept].or(self.carrier[other]);
                 changed.push(kept);
             }
         }
-    }
-
-    fn zone(&mut self, node: usize) -> usize {
-        let mut at = node;
-        while self.parent[at] as usize != at {
-            self.parent[at] = self.parent[self.parent[at] as usize];
-            at = self.parent[at] as usize;
-        }
-        at
     }
 
     /// Puts the nodes of changed zones where their zones go; returns which these are.
@@ -113,13 +102,13 @@ impl Zones {
         obstacles: &[ObstacleMotion],
         changed: &[usize],
     ) -> Vec<bool> {
-        let count = self.parent.len();
+        let count = self.carrier.len();
         let mut is_changed = vec![false; count];
         for &node in changed {
-            let zone = self.zone(node);
+            let zone = self.sets.root(node);
             is_changed[zone] = true;
         }
-        let zones: Vec<usize> = (0..count).map(|node| self.zone(node)).collect();
+        let zones: Vec<usize> = (0..count).map(|node| self.sets.root(node)).collect();
         let mut sums = vec![(0.0, DVec3::ZERO, DVec3::ZERO); count];
         for (node, &zone) in zones.iter().enumerate().filter(|(_, z)| is_changed[**z]) {
             let mass = cloth.mass[node];
@@ -128,15 +117,12 @@ impl Zones {
             *sum = (sum.0 + mass, sum.1 + way * mass, sum.2 + self.free_velocity[node] * mass);
         }
         for (node, &zone) in zones.iter().enumerate().filter(|(_, z)| is_changed[**z]) {
-            let start = cloth.position_at_start[node];
             if let Some((number, own_way)) = self.carrier[zone] {
-                let obstacle = &obstacles[number];
-                let own = obstacle.point_in_own_at_start(start) + own_way;
-                cloth.position[node] = obstacle.end.transform_point(own);
-                cloth.velocity[node] = (cloth.position[node] - start) / obstacle.duration;
+                place_along(cloth, &obstacles[number], node, own_way);
             } else {
                 let (mass, way, momentum) = sums[zone];
-                cloth.position[node] = start + way / mass.max(f64::MIN_POSITIVE);
+                cloth.position[node] =
+                    cloth.position_at_start[node] + way / mass.max(f64::MIN_POSITIVE);
                 cloth.velocity[node] = momentum / mass.max(f64::MIN_POSITIVE);
             }
         }

@@ -26,7 +26,7 @@ fn sheet_of_springs(side: u32, stiffness: f64, random: &mut Random) -> BlockMatr
     }
     for [a, b] in pairs {
         let axis = random.vector().normalize_or(DVec3::X);
-        let spring = crate::dynamics::outer(axis * stiffness, axis);
+        let spring = crate::math::outer(axis * stiffness, axis);
         matrix.add(pattern.slot(a, b).unwrap(), -spring);
         matrix.add(pattern.diagonal_slot(a as usize), spring);
         matrix.add(pattern.diagonal_slot(b as usize), spring);
