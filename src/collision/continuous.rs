@@ -41,8 +41,8 @@ pub struct FirstTouch {
     pub weights: [f64; 4],
 }
 
-/// Advances after which the touch is taken for granted. A clear hit or miss takes fewer than ten;
-/// only features which slide along one another in one plane need more, and only those nearer than a
+/// Advances after which the touch is taken for granted. A clear hit or miss takes fewer than ten; only
+/// features which turn while they slide along one another need more, and only those nearer than a
 /// thousandth of their way run out of them.
 const ADVANCES_MAX: usize = 1000;
 
@@ -80,7 +80,8 @@ impl Sweep {
                 nearest_yet = (near.distance, here);
             }
             // Half the tolerance is kept back for rounding.
-            time += (near.distance - 0.5 * tolerance) / way;
+            let free = (near.distance - 0.5 * tolerance) / way;
+            time += free.max(self.parted_for(features, time, near, 0.5 * tolerance));
             if time > 1.0 {
                 return None;
             }
@@ -92,6 +93,24 @@ impl Sweep {
     /// Where the points are at a share of the motion.
     pub fn at(&self, time: f64) -> [DVec3; 4] {
         [0, 1, 2, 3].map(|k| self.start[k].lerp(self.end[k], time))
+    }
+
+    /// How long a plane across the offset between the nearest points keeps the features apart (share
+    /// of the motion): until the first two corners, one of either, are no farther apart across it than
+    /// a distance (m). Features that slide along one another are apart for long, however fast.
+    fn parted_for(&self, features: Features, time: f64, near: Near, least: f64) -> f64 {
+        let points = self.at(time);
+        let offset: DVec3 = (0..4).map(|k| points[k] * near.weights[k]).sum();
+        let normal = offset / near.distance;
+        let heights = points.map(|p| normal.dot(p));
+        let rises = [0, 1, 2, 3].map(|k| normal.dot(self.end[k] - self.start[k]));
+        let until = |(i, j): (usize, usize)| {
+            let closing = rises[j] - rises[i];
+            if closing <= 0.0 { f64::INFINITY } else { (heights[i] - heights[j] - least) / closing }
+        };
+        // What is no number parts nothing.
+        let earlier = |a: f64, b: f64| if b >= a { a } else { b };
+        corner_pairs(features).iter().copied().map(until).fold(f64::INFINITY, earlier)
     }
 
     /// The volume of the parallelepiped at the first point: zero where the four are in one plane.
@@ -106,11 +125,15 @@ impl Sweep {
         let way = |i: usize, j: usize| {
             ((self.end[i] - self.start[i]) - (self.end[j] - self.start[j])).length_squared()
         };
-        let squared = match features {
-            Features::VertexFace => way(0, 1).max(way(0, 2)).max(way(0, 3)),
-            Features::EdgeEdge => way(0, 2).max(way(0, 3)).max(way(1, 2)).max(way(1, 3)),
-        };
-        squared.sqrt()
+        corner_pairs(features).iter().map(|&(i, j)| way(i, j)).fold(0.0, f64::max).sqrt()
+    }
+}
+
+/// A corner of the first feature and one of the second.
+fn corner_pairs(features: Features) -> &'static [(usize, usize)] {
+    match features {
+        Features::VertexFace => &[(0, 1), (0, 2), (0, 3)],
+        Features::EdgeEdge => &[(0, 2), (0, 3), (1, 2), (1, 3)],
     }
 }
 

@@ -138,6 +138,26 @@ fn what_passes_by_just_beyond_the_tolerance_does_not_touch() {
     }
 }
 
+#[test]
+fn features_that_slide_along_one_another_are_not_taken_for_touching() {
+    let middle = [
+        DVec3::ZERO,
+        DVec3::new(0.2171799658053799, -0.7638478700484326, 0.7016594964414304),
+        DVec3::new(0.695108564896864, -0.8133905861495676, 0.6600130983812184),
+        DVec3::new(-0.9618640743024385, -0.9840763212932306, -0.8291830551526282),
+    ];
+    let way = [
+        DVec3::new(0.8240957129885854, -0.2757074314008993, 0.368776386307329),
+        DVec3::new(0.6730454119293786, -0.46636974997419944, 0.12455919856364353),
+        DVec3::new(0.0, -0.11493026297503348, 0.9741684676082751),
+        DVec3::new(-0.9591929277679244, -0.16297317864119026, -0.7791825716875683),
+    ];
+    for features in BOTH {
+        let sweep = touching(features, middle, way.map(|w| w * 4.885513), 0.15730587328618423);
+        assert!(check(&sweep, features, Motion::Any).unwrap().is_claimed);
+    }
+}
+
 proptest! {
     #[test]
     fn answers_agree_with_dense_sampling(start in points(), end in points()) {
