@@ -1,4 +1,4 @@
-//! Where and when each foot is set: all of the figure's motion follows from this list.
+//! Where and when each foot is set: nearly all of a figure's motion follows from such a list.
 
 use std::f64::consts::PI;
 
@@ -8,39 +8,27 @@ use shotsilk::scene::Pose;
 use super::parts::{ANKLE_HEIGHT, Side};
 
 /// A foot leaves the ground at one frame and is set down elsewhere at another.
-struct Step {
-    side: Side,
-    frames: [f64; 2],
-    /// Of the figure along its way (m): first it turns on the spot, then it walks.
-    along: f64,
+pub struct Step {
+    pub side: Side,
+    pub frames: [f64; 2],
+    /// Of the figure along its way (m).
+    pub along: f64,
     /// Of the foot, from the way, counter-clockwise (degrees).
-    heading_deg: f64,
+    pub heading_deg: f64,
 }
 
-const fn step(side: Side, frames: [f64; 2], along: f64, heading_deg: f64) -> Step {
+pub const fn step(side: Side, frames: [f64; 2], along: f64, heading_deg: f64) -> Step {
     Step { side, frames, along, heading_deg }
 }
 
-/// Where the way leads, from x, counter-clockwise (degrees): past the key light of the pictures.
-const WAY_DEG: f64 = -75.0;
-
-/// Which way the figure faces at first, from its way (degrees).
-const FIRST_HEADING_DEG: f64 = 180.0;
-
-const STEPS: [Step; 12] = [
-    step(Side::Left, [10.0, 17.0], 0.00, 235.0),
-    step(Side::Right, [17.0, 24.0], 0.00, 285.0),
-    step(Side::Left, [24.0, 30.0], 0.00, 330.0),
-    step(Side::Right, [30.0, 35.0], 0.00, 345.0),
-    step(Side::Left, [35.0, 41.0], 0.00, 362.0),
-    step(Side::Right, [42.0, 53.0], 0.30, 360.0),
-    step(Side::Left, [53.0, 64.0], 0.80, 360.0),
-    step(Side::Right, [64.0, 75.0], 1.30, 360.0),
-    step(Side::Left, [75.0, 86.0], 1.80, 360.0),
-    step(Side::Right, [86.0, 97.0], 2.30, 360.0),
-    step(Side::Left, [97.0, 108.0], 2.80, 360.0),
-    step(Side::Right, [108.0, 119.0], 3.30, 360.0),
-];
+/// Both feet's steps, each foot's in their order.
+pub struct Steps {
+    /// Where the way leads, from x, counter-clockwise (degrees).
+    pub way_deg: f64,
+    /// Which way the figure faces at first, from its way (degrees).
+    pub first_heading_deg: f64,
+    pub list: &'static [Step],
+}
 
 /// Of a foot from the line the figure walks on (m).
 const HALF_TRACK: f64 = 0.075;
@@ -74,82 +62,85 @@ pub fn facing(heading: f64) -> DQuat {
     DQuat::from_rotation_z(heading - 0.5 * PI)
 }
 
-/// A foot's place at a frame, as if it were flat on the ground.
-pub fn footing(side: Side, frame: f64) -> Footing {
-    let (from, to, share) = around(side, frame);
-    let s = smooth(share);
-    Footing {
-        position: from.position.lerp(to.position, s),
-        heading: from.heading + s * (to.heading - from.heading),
-    }
-}
-
-/// 1 while a foot is off the ground, else 0.
-pub fn airborne(side: Side, frame: f64) -> f64 {
-    let (_, _, share) = around(side, frame);
-    if share > 0.0 && share < 1.0 { 1.0 } else { 0.0 }
-}
-
-/// World from a foot's own space, whose origin is the ankle.
-pub fn foot(side: Side, frame: f64) -> Pose {
-    let ground = footing(side, frame);
-    let (_, _, share) = around(side, frame);
-    let tilt = tilt(side, frame);
-    let on_heel = smooth(0.5 + 0.5 * tilt / FLAT);
-    let pivot = DVec3::new(0.0, TOES + on_heel * (HEEL - TOES), -ANKLE_HEIGHT);
-    let heading = facing(ground.heading);
-    let rotation = heading * DQuat::from_rotation_x(tilt);
-    let lift = DVec3::Z * (ANKLE_HEIGHT + LIFT * (PI * share).sin().powi(2));
-    let translation = ground.position + lift + heading * pivot - rotation * pivot;
-    Pose { scale: 1.0, rotation, translation }
-}
-
-/// How far the toes are up (rad): below 0 before and at the start of a step, above at its end.
-fn tilt(side: Side, frame: f64) -> f64 {
-    let mut tilt = 0.0;
-    for (index, step) in STEPS.iter().enumerate().filter(|(_, s)| s.side == side) {
-        let (from, to) = (before(index), landing(step));
-        let roll = (from.position.distance(to.position) / FULL_STEP).clamp(0.15, 1.0);
-        let [start, end] = step.frames;
-        let share = ((frame - start) / (end - start)).clamp(0.0, 1.0);
-        let heel =
-            smooth((frame - start + HEEL_FRAMES) / HEEL_FRAMES) * (1.0 - smooth(share / 0.7));
-        let toes = smooth((share - 0.5) / 0.5) * (1.0 - smooth((frame - end) / TOE_FRAMES));
-        tilt += roll * (TOE_RISE * toes - HEEL_RISE * heel);
-    }
-    tilt
-}
-
-/// The footings between which a foot is at a frame, and its share of the way.
-fn around(side: Side, frame: f64) -> (Footing, Footing, f64) {
-    let of_side = |(_, s): &(usize, &Step)| s.side == side;
-    let begun = |(_, s): &(usize, &Step)| s.frames[0] <= frame;
-    let current = STEPS.iter().enumerate().filter(of_side).rfind(begun);
-    match current {
-        None => (first(side), first(side), 0.0),
-        Some((index, step)) => {
-            let [start, end] = step.frames;
-            (before(index), landing(step), ((frame - start) / (end - start)).min(1.0))
+impl Steps {
+    /// A foot's place at a frame, as if it were flat on the ground.
+    pub fn footing(&self, side: Side, frame: f64) -> Footing {
+        let (from, to, share) = self.around(side, frame);
+        let s = smooth(share);
+        Footing {
+            position: from.position.lerp(to.position, s),
+            heading: from.heading + s * (to.heading - from.heading),
         }
     }
-}
 
-/// Where a step starts.
-fn before(index: usize) -> Footing {
-    let earlier = STEPS[..index].iter().rev().find(|s| s.side == STEPS[index].side);
-    earlier.map_or_else(|| first(STEPS[index].side), landing)
-}
+    /// 1 while a foot is off the ground, else 0.
+    pub fn airborne(&self, side: Side, frame: f64) -> f64 {
+        let (_, _, share) = self.around(side, frame);
+        if share > 0.0 && share < 1.0 { 1.0 } else { 0.0 }
+    }
 
-fn first(side: Side) -> Footing {
-    landing(&step(side, [0.0; 2], 0.0, FIRST_HEADING_DEG))
-}
+    /// World from a foot's own space, whose origin is the ankle.
+    pub fn foot(&self, side: Side, frame: f64) -> Pose {
+        let ground = self.footing(side, frame);
+        let (_, _, share) = self.around(side, frame);
+        let tilt = self.tilt(side, frame);
+        let on_heel = smooth(0.5 + 0.5 * tilt / FLAT);
+        let pivot = DVec3::new(0.0, TOES + on_heel * (HEEL - TOES), -ANKLE_HEIGHT);
+        let heading = facing(ground.heading);
+        let rotation = heading * DQuat::from_rotation_x(tilt);
+        let lift = DVec3::Z * (ANKLE_HEIGHT + LIFT * (PI * share).sin().powi(2));
+        let translation = ground.position + lift + heading * pivot - rotation * pivot;
+        Pose { scale: 1.0, rotation, translation }
+    }
 
-fn landing(step: &Step) -> Footing {
-    let way = WAY_DEG.to_radians();
-    let heading = way + step.heading_deg.to_radians();
-    let right = facing(heading) * DVec3::X;
-    let position = facing(way) * DVec3::Y * step.along + right * (HALF_TRACK * step.side.sign());
-    Footing { position, heading }
+    /// How far the toes are up (rad): below 0 before and at the start of a step, above at its end.
+    fn tilt(&self, side: Side, frame: f64) -> f64 {
+        let mut tilt = 0.0;
+        for (index, step) in self.list.iter().enumerate().filter(|(_, s)| s.side == side) {
+            let (from, to) = (self.before(index), self.landing(step));
+            let roll = (from.position.distance(to.position) / FULL_STEP).clamp(0.15, 1.0);
+            let [start, end] = step.frames;
+            let share = ((frame - start) / (end - start)).clamp(0.0, 1.0);
+            let heel =
+                smooth((frame - start + HEEL_FRAMES) / HEEL_FRAMES) * (1.0 - smooth(share / 0.7));
+            let toes = smooth((share - 0.5) / 0.5) * (1.0 - smooth((frame - end) / TOE_FRAMES));
+            tilt += roll * (TOE_RISE * toes - HEEL_RISE * heel);
+        }
+        tilt
+    }
+
+    /// The footings between which a foot is at a frame, and its share of the way.
+    fn around(&self, side: Side, frame: f64) -> (Footing, Footing, f64) {
+        let of_side = |(_, s): &(usize, &Step)| s.side == side;
+        let begun = |(_, s): &(usize, &Step)| s.frames[0] <= frame;
+        let current = self.list.iter().enumerate().filter(of_side).rfind(begun);
+        match current {
+            None => (self.first(side), self.first(side), 0.0),
+            Some((index, step)) => {
+                let [start, end] = step.frames;
+                (self.before(index), self.landing(step), ((frame - start) / (end - start)).min(1.0))
+            }
+        }
+    }
+
+    /// Where a step starts.
+    fn before(&self, index: usize) -> Footing {
+        let earlier = self.list[..index].iter().rev().find(|s| s.side == self.list[index].side);
+        earlier.map_or_else(|| self.first(self.list[index].side), |step| self.landing(step))
+    }
+
+    fn first(&self, side: Side) -> Footing {
+        self.landing(&step(side, [0.0; 2], 0.0, self.first_heading_deg))
+    }
+
+    fn landing(&self, step: &Step) -> Footing {
+        let way = self.way_deg.to_radians();
+        let heading = way + step.heading_deg.to_radians();
+        let right = facing(heading) * DVec3::X;
+        let position =
+            facing(way) * DVec3::Y * step.along + right * (HALF_TRACK * step.side.sign());
+        Footing { position, heading }
+    }
 }
 
 /// From 0 to 1 with no slope and no curvature at either end.
