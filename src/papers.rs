@@ -99,3 +99,7 @@ pub enum MCYZ21 {}
 
 /// Harmon, Vouga, Tamstorf, Grinspun: *Robust Treatment of Simultaneous Collisions*, ACM TOG 2008.
 pub enum HVTG08 {}
+
+/// Volino, Magnenat-Thalmann: *Resolving Surface Collisions through Intersection Contour
+/// Minimization*, ACM TOG 2006.
+pub enum VMT06 {}

@@ -3,11 +3,13 @@
 //!
 //! Before the step, nodes near obstacles, corners of obstacles near faces and sharp edges of
 //! obstacles near edges become contacts. After it, whatever would have passed through a surface on
-//! its way, points through triangles or edges through edges, is stopped.
+//! its way, points through triangles or edges through edges, is stopped. What passes through all the
+//! same, as at a bad start, is taken apart once a frame (`contour`).
 
 mod carry;
 mod cloth;
 mod continuous;
+mod contour;
 mod everywhere;
 mod face_tree;
 mod group;
@@ -27,6 +29,10 @@ mod topology;
 
 pub use cloth::{ClothContact, ClothGuard, Crossing, crossings};
 pub use continuous::{Features, FirstTouch, Sweep};
+pub use contour::{
+    Cut, Limits, Method, Round, TangledCloth, Untangling, cuts, lift_cuts, stop_at_crossings,
+    untangle,
+};
 pub use face_tree::{FaceTree, Touch};
 pub use guard::ObstacleGuard;
 pub use motion::ObstacleMotion;

@@ -237,6 +237,13 @@ impl ObstacleMotion {
                 .is_crossed_by(triangle.map(|p| self.own_from_end.transform_point3(p)))
     }
 
+    /// The middle of where a triangle crosses the surface at the end of the step; `None` if it does
+    /// not.
+    pub fn middle_of_cut_at_end(&self, triangle: [DVec3; 3]) -> Option<DVec3> {
+        let own = triangle.map(|p| self.own_from_end.transform_point3(p));
+        self.shape_at_end.middle_of_cut(own).map(|middle| self.end.transform_point(middle))
+    }
+
     fn contains(&self, at: At, point: DVec3) -> bool {
         let bounds = self.view(at).3;
         // Most points are outside the box: the surface need not be searched for them.

@@ -241,7 +241,12 @@ fn sunk_face(
 
 /// Moves a point of a face along the normal by `lift` (m) and ends its approach, by the least
 /// change of its nodes. Barycentric weights add up to 1, so their squares to at least 1/3.
-fn lift_face(cloth: &mut MovedCloth<'_>, touch: &Touch, lift: f64, surface_velocity: DVec3) {
+pub(super) fn lift_face(
+    cloth: &mut MovedCloth<'_>,
+    touch: &Touch,
+    lift: f64,
+    surface_velocity: DVec3,
+) {
     let spread: f64 = touch.weights.iter().map(|w| w * w).sum();
     let closing = touch.normal.dot(touch.weighted_sum(cloth.velocity) - surface_velocity);
     for (&node, weight) in touch.nodes.iter().zip(&touch.weights) {

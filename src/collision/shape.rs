@@ -13,7 +13,7 @@ use super::group::Group;
 use super::nearest::{NearTriangle, bounds, nearest_triangle};
 use super::ridge::Ridge;
 use super::topology::{Edge, Topology};
-use crate::math::{closest_point_on_triangle, triangles_cross};
+use crate::math::{closest_point_on_triangle, crossing_places, triangles_cross};
 use crate::scene::Surface;
 
 /// A closed surface with the pseudonormals that tell inside from outside.
@@ -187,6 +187,19 @@ impl Shape {
         self.tree
             .intersect_aabb(&around)
             .any(|other| triangles_cross(triangle, self.corners(other)))
+    }
+
+    /// The mean of the places where edges of a triangle pass through the surface, and edges of the
+    /// surface through the triangle; `None` if none does.
+    pub fn middle_of_cut(&self, triangle: [DVec3; 3]) -> Option<DVec3> {
+        let mut sum = (DVec3::ZERO, 0.0);
+        for other in self.tree.intersect_aabb(&bounds(&triangle)) {
+            let other = self.corners(other);
+            for place in crossing_places(triangle, other) {
+                sum = (sum.0 + place, sum.1 + 1.0);
+            }
+        }
+        (sum.1 > 0.0).then(|| sum.0 / sum.1)
     }
 
     pub fn corners(&self, triangle: u32) -> [DVec3; 3] {

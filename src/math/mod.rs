@@ -18,7 +18,8 @@ pub use random::Random;
 pub use segment::{SegmentPair, closest_points_of_segments, segment_distance_squared};
 pub use tensor::{Eigen2, SymTensor2};
 pub use triangle::{
-    ClosestPoint, closest_point_on_triangle, segment_passes_through, triangles_cross,
+    ClosestPoint, closest_point_on_triangle, crossing_places, segment_passes_through,
+    triangles_cross,
 };
 
 use glam::{DMat3, DVec3};

@@ -62,6 +62,16 @@ pub fn triangles_cross(first: [DVec3; 3], second: [DVec3; 3]) -> bool {
     edge_passes_through(first, second) || edge_passes_through(second, first)
 }
 
+/// Where edges of one triangle pass through the inside of the other.
+pub fn crossing_places(first: [DVec3; 3], second: [DVec3; 3]) -> impl Iterator<Item = DVec3> {
+    let of = |edges_of: [DVec3; 3], face: [DVec3; 3]| {
+        [(0, 1), (1, 2), (2, 0)]
+            .into_iter()
+            .filter_map(move |(i, j)| place_in_segment([edges_of[i], edges_of[j]], face))
+    };
+    of(first, second).chain(of(second, first))
+}
+
 fn edge_passes_through(edges_of: [DVec3; 3], face: [DVec3; 3]) -> bool {
     [(0, 1), (1, 2), (2, 0)]
         .into_iter()
@@ -70,15 +80,19 @@ fn edge_passes_through(edges_of: [DVec3; 3], face: [DVec3; 3]) -> bool {
 
 /// Whether a segment passes through the inside of a triangle. One that lies in the triangle's plane
 /// to rounding does so only where it is over the inside.
-pub fn segment_passes_through(ends: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+pub fn segment_passes_through(ends: [DVec3; 2], face: [DVec3; 3]) -> bool {
+    place_in_segment(ends, face).is_some()
+}
+
+fn place_in_segment(ends: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let normal = (b - a).cross(c - a);
     let [low, high] = ends.map(|p| normal.dot(p - a));
     if (low > 0.0) == (high > 0.0) {
-        return false;
+        return None;
     }
     let p = ends[0].lerp(ends[1], low / (low - high));
     let inside = |from: DVec3, to: DVec3| normal.dot((to - from).cross(p - from)) > 0.0;
-    inside(a, b) && inside(b, c) && inside(c, a)
+    (inside(a, b) && inside(b, c) && inside(c, a)).then_some(p)
 }
 
 #[cfg(test)]

@@ -16,6 +16,7 @@ pub enum Stage {
     Sizing,
     View,
     Remesh,
+    Untangle,
 }
 
 /// Adds up wall seconds by stage; what no stage claims is `other`.
@@ -65,6 +66,7 @@ impl StageClock {
             Stage::Sizing => &mut s.sizing,
             Stage::View => &mut s.view,
             Stage::Remesh => &mut s.remesh,
+            Stage::Untangle => &mut s.untangle,
         }
     }
 }

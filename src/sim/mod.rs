@@ -1,9 +1,9 @@
 //! The main loop.
 //!
 //! ```text
-//! start:    refine and relax what was given -> frame 0
+//! start:    take apart, refine and relax what was given -> frame 0
 //! advance:  for each step    obstacles and handles move -> contacts -> implicit step -> resolve
-//!           once             base metric -> view factor -> vertex metric -> remesh
+//!           once             base metric -> view factor -> vertex metric -> remesh -> untangle
 //!           publish          a frame that never changes again
 //! ```
 //!
@@ -22,6 +22,7 @@ mod refine;
 mod settings;
 mod start;
 mod step;
+mod untangle;
 
 pub use frame::{Frame, FrameReport, StageCounts, StageSeconds};
 pub use settings::{SimSettings, SizingMode};
@@ -30,7 +31,7 @@ pub use step::SimError;
 use std::sync::Arc;
 
 use crate::collision::{
-    ClothContact, Depth, FaceTree, NearMemory, ObstacleMotion, Obstacles, crossings, trapped_nodes,
+    ClothContact, Depth, FaceTree, NearMemory, ObstacleMotion, Obstacles, trapped_nodes,
 };
 use crate::dynamics::{StepState, System};
 use crate::mesh::{FaceId, IdVec, Mesh};
@@ -38,6 +39,7 @@ use crate::scene::{Fabric, Pose, Scene};
 use clock::{Stage, StageClock};
 use handles::{Anchors, HeldNodes};
 use step::Regime;
+use untangle::Moment;
 
 /// A shot being simulated: the state after the last published frame.
 pub struct Simulation {
@@ -48,6 +50,8 @@ pub struct Simulation {
     cloth: MovingCloth,
     anchors: Anchors,
     frame: u32,
+    /// Crossings of cloth with cloth at the last published frame, where these are counted.
+    intersections: usize,
 }
 
 /// The garments as the step sees them: one numbering of nodes over all, and what hangs on the
@@ -84,13 +88,16 @@ impl Simulation {
             obstacles,
             garments,
             frame: 0,
+            intersections: 0,
         };
         let mut report = FrameReport::default();
+        simulation.take_apart_at_start(&mut clock, &mut report);
         simulation.warn_of_bending(&mut report);
         simulation.settle(&mut clock, &mut report)?;
         simulation.perturb();
         simulation.cloth.refit();
         clock.time(Stage::Collision, || simulation.clear_obstacles(&mut report));
+        simulation.untangle(Moment::Start, &mut clock, &mut report);
         let frame = simulation.publish(clock, report);
         Ok((simulation, frame))
     }
@@ -114,6 +121,7 @@ impl Simulation {
             settings,
             garments,
             frame: frame.number,
+            intersections: frame.report.intersections.unwrap_or(0),
         })
     }
 
@@ -126,6 +134,7 @@ impl Simulation {
         let mut clock = StageClock::start();
         let mut report = FrameReport::default();
         self.cloth.forget_the_past(&self.garments, &mut clock);
+        clock.time(Stage::Untangle, || self.let_go_of_tangles());
         let (start, step_time) = (self.time(), self.scene.step_time());
         for step in 0..self.scene.steps_per_frame {
             let time = start + f64::from(step) * step_time;
@@ -137,6 +146,7 @@ impl Simulation {
             self.refine(&mut clock, &mut report);
         }
         clock.time(Stage::Collision, || self.clear_obstacles(&mut report));
+        self.untangle(Moment::Frame, &mut clock, &mut report);
         Ok(self.publish(clock, report))
     }
 
@@ -182,10 +192,6 @@ impl Simulation {
 
     fn publish(&self, mut clock: StageClock, mut report: FrameReport) -> Frame {
         frame::measure(&self.garments, &mut report);
-        if self.scene.stages.self_contact {
-            report.intersections =
-                Some(crossings(&self.cloth.tree, &self.cloth.state.position).len());
-        }
         report.elastic_energy = self.cloth.system.potential_energy(&self.cloth.state);
         report.kinetic_energy = self.cloth.system.kinetic_energy(&self.cloth.state);
         report.stages = clock.finish();

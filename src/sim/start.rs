@@ -64,6 +64,7 @@ impl Simulation {
         }
         let limit = MOTION_IN_THICKNESSES * self.scene.contact.thickness;
         let mut farthest = f64::INFINITY;
+        self.let_go_of_tangles();
         for _ in 0..STEPS_PER_ROUND {
             let before = self.cloth.state.position.clone();
             self.step(0.0, self.scene.step_time(), Regime::Relaxation, clock, report)?;

@@ -185,6 +185,7 @@ impl MovingCloth {
         settings: &Contact,
         depth: Depth,
     ) -> Resolution {
+        // Borrowed field by field: the tree and what is known of obstacles are written as well.
         let mut moved = MovedCloth {
             position: &mut self.state.position,
             velocity: &mut self.state.velocity,
@@ -195,5 +196,16 @@ impl MovingCloth {
         };
         let own = self.own.as_mut();
         resolve(&mut moved, &mut self.tree, obstacles, &mut self.near, settings, depth, own)
+    }
+
+    pub(super) fn moved<'a>(&'a mut self, position_at_start: &'a [DVec3]) -> MovedCloth<'a> {
+        MovedCloth {
+            position: &mut self.state.position,
+            velocity: &mut self.state.velocity,
+            position_at_start,
+            area: &self.area,
+            mass: self.system.masses(),
+            faces: &self.faces,
+        }
     }
 }

@@ -26,6 +26,7 @@ pub mod sheet;
 pub mod specimen;
 mod stage;
 mod stick_slip;
+pub mod tangle;
 mod triangulate;
 mod wrinkles;
 

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::pairs::ClothPair;
-use crate::collision::topology::Topology;
+use crate::collision::topology::{Edge, Topology};
 use crate::mesh::{Mesh, Panels};
 
 /// Features that are next to one another in the flat cloth are held off by this share of their
@@ -58,6 +58,22 @@ impl Layers {
         }
         let flat: DVec2 = (0..4).map(|k| self.material_at(pair.corners[k]) * weights[k]).sum();
         thickness.min(SHARE_OF_FLAT_DISTANCE * flat.length())
+    }
+
+    /// Of every edge of the topology in the flat cloth, by the first face at it (m).
+    pub fn flat_lengths(&self, topology: &Topology) -> Vec<f64> {
+        let of = |(number, edge): (usize, &Edge)| {
+            let face = edge.first.triangle;
+            let opposite = topology.edges_of(face).iter().position(|&e| e as usize == number);
+            let k = opposite.unwrap_or(0);
+            let corners = self.material[face as usize];
+            corners[(k + 1) % 3].distance(corners[(k + 2) % 3])
+        };
+        topology.edges().iter().enumerate().map(of).collect()
+    }
+
+    pub(super) fn node_count(&self) -> usize {
+        self.first.len() - 1
     }
 
     /// The nodes that a node shares an edge with, ascending.

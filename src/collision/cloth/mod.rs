@@ -12,6 +12,7 @@ mod impact;
 mod layers;
 mod pairs;
 mod stop;
+mod tangled;
 mod zones;
 
 pub use crossings::{Crossing, crossings};
@@ -24,6 +25,7 @@ use glam::DVec3;
 use contacts::cloth_contacts;
 use layers::Layers;
 use pairs::ClothPairs;
+use tangled::tangled_nodes;
 
 use super::face_tree::FaceTree;
 use super::proximity::Cloth;
@@ -39,6 +41,8 @@ const ROOM_IN_THICKNESSES: f64 = 0.1;
 pub struct ClothContact {
     layers: Layers,
     pairs: ClothPairs,
+    /// Per node whether it is at a place where cloth passes through cloth; `None` if none is.
+    tangled: Option<Vec<bool>>,
 }
 
 impl ClothContact {
@@ -48,12 +52,25 @@ impl ClothContact {
         Self {
             layers: Layers::new(garments, topology, positions.len()),
             pairs: ClothPairs::new(positions, topology),
+            tangled: None,
         }
     }
 
     /// Becomes what a new one of the same garments would be.
     pub fn forget(&mut self, tree: &FaceTree, positions: &[DVec3]) {
         self.pairs = ClothPairs::new(positions, tree.topology());
+        self.tangled = None;
+    }
+
+    /// Leaves out what holds the cloth where it passes through itself: at a crossing either side may
+    /// be the right one, and contact would hold all nodes on the side where they are.
+    pub fn let_go_of(&mut self, tree: &FaceTree, crossings: &[Crossing]) {
+        self.tangled = tangled_nodes(tree.topology(), &self.layers, crossings);
+    }
+
+    /// Of the tree's edges, in the flat cloth (m).
+    pub fn flat_lengths(&self, tree: &FaceTree) -> Vec<f64> {
+        self.layers.flat_lengths(tree.topology())
     }
 
     /// Makes ready to look for contacts at the start of a step (s) and for impacts after it, if
@@ -68,6 +85,7 @@ impl ClothContact {
         let way = |node: usize| cloth.velocity[node] * duration;
         let reach = (0.5 + ROOM_IN_THICKNESSES) * settings.thickness;
         self.pairs.find(tree.topology(), cloth.position, way, reach);
+        self.leave_out_tangled(tree);
     }
 
     /// Pairs that are nearer than they should be, or would be within the step (s) that has been made
@@ -87,6 +105,7 @@ impl ClothContact {
     pub fn expect_rest(&mut self, tree: &FaceTree, start: &[DVec3], settings: &Contact) {
         let reach = ROOM_IN_THICKNESSES * settings.thickness;
         self.pairs.find(tree.topology(), start, |_| DVec3::ZERO, reach);
+        self.leave_out_tangled(tree);
     }
 
     pub(super) fn search<'a>(
@@ -94,7 +113,14 @@ impl ClothContact {
         tree: &'a FaceTree,
         settings: &'a Contact,
     ) -> ClothSearch<'a> {
-        ClothSearch { topology: tree.topology(), pairs: &mut self.pairs, settings }
+        let tangled = self.tangled.as_deref();
+        ClothSearch { topology: tree.topology(), pairs: &mut self.pairs, tangled, settings }
+    }
+
+    fn leave_out_tangled(&mut self, tree: &FaceTree) {
+        if let Some(tangled) = &self.tangled {
+            self.pairs.leave_out(tree.topology(), tangled);
+        }
     }
 }
 

@@ -136,6 +136,16 @@ impl ClothPairs {
         self.found.dedup();
     }
 
+    /// Drops the pairs that have tangled nodes on both sides.
+    pub fn leave_out(&mut self, topology: &Topology, tangled: &[bool]) {
+        let is_tangled = |nodes: &[usize]| nodes.iter().any(|&n| tangled[n]);
+        self.found.retain(|pair| {
+            let nodes = pair.nodes(topology);
+            let (one, other) = nodes.split_at(point_count_of_first(pair.features));
+            !(is_tangled(one) && is_tangled(other))
+        });
+    }
+
     pub fn found(&self) -> &[ClothPair] {
         &self.found
     }

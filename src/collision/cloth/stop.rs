@@ -34,6 +34,8 @@ pub(in crate::collision) struct ClothStops {
 pub(in crate::collision) struct ClothSearch<'a> {
     pub topology: &'a Topology,
     pub pairs: &'a mut ClothPairs,
+    /// Nodes at places where cloth passes through itself: nothing stops these at one another.
+    pub tangled: Option<&'a [bool]>,
     pub settings: &'a Contact,
 }
 
@@ -46,6 +48,9 @@ impl ClothSearch<'_> {
     pub fn impacts(&mut self, cloth: &MovedCloth<'_>, among: Option<&[bool]>) -> Vec<ClothImpact> {
         let room = ROOM_IN_THICKNESSES * self.settings.thickness;
         self.pairs.cover(self.topology, cloth.position, room);
+        if let Some(tangled) = self.tangled {
+            self.pairs.leave_out(self.topology, tangled);
+        }
         let ways = [cloth.position_at_start, &*cloth.position];
         impacts(self.topology, self.pairs.found(), ways, among, self.touch())
     }

@@ -2,6 +2,7 @@
 
 use super::frame_to_frame::{assert_follows_from_each_frame, bits};
 use super::*;
+use crate::collision::crossings;
 
 const FRAMES: u32 = 14;
 

@@ -1,0 +1,196 @@
+//! Garments that start inside one another or inside obstacles, and ones that come to be tangled.
+
+use std::f64::consts::PI;
+
+use super::frame_to_frame::bits;
+use super::*;
+use crate::collision::crossings;
+
+/// Cells along a side of a sheet.
+const CELLS: u32 = 14;
+
+/// A square sheet of 1 m, placed in the world.
+fn placed(place: impl Fn(DVec2) -> DVec3) -> Mesh {
+    let rows = CELLS + 1;
+    let mut raw = RawMesh::default();
+    for node in 0..rows * rows {
+        let u = DVec2::new(f64::from(node % rows), f64::from(node / rows)) / f64::from(CELLS);
+        raw.vertices.push((node, u));
+        raw.positions.push(place(u));
+    }
+    for cell in 0..CELLS * CELLS {
+        let [a, b] = [0, 1].map(|k| cell / CELLS * rows + cell % CELLS + k);
+        raw.faces.extend([[a, b, b + rows], [a, b + rows, a + rows]]);
+    }
+    Mesh::from_raw(&raw, &[]).unwrap()
+}
+
+/// Sheets in mid-air, without gravity.
+fn floating(sheets: Vec<Mesh>) -> Scene {
+    let mut shot = scene(sheet());
+    shot.gravity = DVec3::ZERO;
+    let garment = shot.garments.remove(0);
+    shot.garments = sheets.into_iter().map(|mesh| Garment { mesh, ..garment.clone() }).collect();
+    shot.stages.remeshing = false;
+    shot
+}
+
+/// Nodes of no two sheets are over one another.
+fn level(u: DVec2, z: f64) -> DVec3 {
+    DVec3::new(u.x, u.y, z)
+}
+
+fn bump(height: f64) -> impl Fn(DVec2) -> DVec3 {
+    move |u| {
+        let r = u.distance(DVec2::splat(0.5)) / 0.25;
+        (u + DVec2::new(0.013, 0.007)).extend(height * (-r * r).exp() - 0.01 * height.signum())
+    }
+}
+
+fn corner(u: DVec2) -> DVec3 {
+    let beyond = (0.35 - u.x - u.y).max(0.0) / 0.35;
+    (u + DVec2::new(0.013, 0.007)).extend(0.01 - 0.08 * beyond)
+}
+
+fn crossing_count(frame: &Frame) -> usize {
+    let garments: Vec<Mesh> = frame.garments.iter().map(|g| (**g).clone()).collect();
+    let positions = StepState::gathered(&garments.iter().collect::<Vec<_>>()).position;
+    crossings(&FaceTree::new(&positions, &global_faces(&garments)), &positions).len()
+}
+
+#[test]
+fn garments_that_start_through_one_another_are_apart_at_frame_0_and_stay_so() {
+    let flat = || placed(|u| level(u, 0.0));
+    let shots = [
+        vec![flat(), placed(corner)],
+        vec![flat(), placed(bump(0.05))],
+        vec![flat(), placed(bump(0.05)), placed(bump(-0.06))],
+    ];
+    for sheets in shots {
+        let count = sheets.len();
+        let frames = run(floating(sheets), SizingMode::Adaptive, 4);
+        for frame in &frames {
+            assert_eq!(frame.report.intersections, Some(0), "{count} sheets, {}", frame.number);
+            assert_eq!(crossing_count(frame), 0);
+        }
+    }
+}
+
+/// A frame of two sheets that came to pass through one another, and its scene.
+fn tangled_in_between(height: f64) -> (Arc<Scene>, Frame) {
+    let shot = floating(vec![placed(|u| level(u, 0.0)), placed(|u| level(u, -0.02))]);
+    let mut frame = run(shot.clone(), SizingMode::Adaptive, 0).remove(0);
+    let mut upper = (*frame.garments[1]).clone();
+    let bump = bump(height);
+    for (x, at) in upper.position.iter_mut().zip(&frame.garments[1].position) {
+        *x = bump(at.truncate());
+    }
+    frame.garments[1] = Arc::new(upper);
+    frame.report.intersections = Some(crossing_count(&frame));
+    assert!(crossing_count(&frame) > 20);
+    (Arc::new(shot), frame)
+}
+
+fn goes_on(shot: &Arc<Scene>, frame: &Frame, count: u32) -> Vec<Frame> {
+    let settings = SimSettings { sizing: SizingMode::Adaptive };
+    let mut simulation = Simulation::from_frame(shot.clone(), settings, frame).unwrap();
+    (0..count).map(|_| simulation.advance().unwrap()).collect()
+}
+
+#[test]
+fn a_tangle_in_a_shot_pulls_apart_over_some_frames_and_what_is_left_is_said() {
+    let (shot, frame) = tangled_in_between(0.08);
+    let frames = goes_on(&shot, &frame, 12);
+    let left: Vec<usize> = frames.iter().map(crossing_count).collect();
+    for (frame, &left) in frames.iter().zip(&left) {
+        assert_eq!(frame.report.intersections, Some(left));
+        let is_said = frame.report.warnings.iter().any(|w| w.contains("crossings are left"));
+        assert_eq!(is_said, left > 0, "{:?}", frame.report.warnings);
+    }
+    assert!(left[0] > 0 && left[0] < crossing_count(&frame), "{left:?}: it takes some frames");
+    assert_eq!(*left.last().unwrap(), 0, "{left:?}");
+}
+
+#[test]
+fn taking_apart_kicks_nothing() {
+    let (shot, frame) = tangled_in_between(0.05);
+    let frames = goes_on(&shot, &frame, 10);
+    let stored = frames.iter().map(|f| f.report.elastic_energy).fold(0.0, f64::max);
+    let fastest = frames.iter().flat_map(|f| f.garments.iter()).flat_map(|g| g.velocity.iter());
+    let fastest = fastest.map(|v| v.length()).fold(0.0, f64::max);
+    // What speed the strain of the bump itself could give, and no more.
+    assert!(fastest < 3.0, "{fastest} m/s");
+    let last = frames.last().unwrap();
+    assert!(last.report.kinetic_energy < stored, "{}", last.report.kinetic_energy);
+}
+
+#[test]
+fn tangles_follow_from_each_frame_and_have_the_same_bits_for_any_number_of_threads() {
+    let (shot, frame) = tangled_in_between(0.08);
+    let straight = goes_on(&shot, &frame, 4);
+    assert!(crossing_count(&straight[0]) > 0);
+    for pair in straight.windows(2) {
+        let next = goes_on(&shot, &pair[0], 1).remove(0);
+        assert!(bits(&next) == bits(&pair[1]), "frame {} is another one", pair[1].number);
+    }
+    for threads in [1, 2, 7] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let again = pool.install(|| goes_on(&shot, &frame, 2));
+        assert!(again.iter().zip(&straight).all(|(a, b)| bits(a) == bits(b)), "{threads} threads");
+    }
+}
+
+/// A ball of some radius around the origin.
+fn ball(radius: f64) -> Surface {
+    let (rings, sectors) = (12u32, 20u32);
+    let at = |ring: u32, sector: u32| {
+        let (polar, around) =
+            (PI * f64::from(ring) / f64::from(rings), 2.0 * PI * f64::from(sector) / 20.0);
+        DVec3::new(polar.sin() * around.cos(), polar.sin() * around.sin(), polar.cos()) * radius
+    };
+    let mut surface = Surface::default();
+    for ring in 0..rings {
+        for sector in 0..sectors {
+            let next = (sector + 1) % sectors;
+            let first = surface.positions.len() as u32;
+            surface.positions.extend([
+                at(ring, sector),
+                at(ring + 1, sector),
+                at(ring + 1, next),
+                at(ring, next),
+            ]);
+            surface
+                .triangles
+                .extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        }
+    }
+    surface.welded()
+}
+
+/// A sheet at a height above the middle of a ball (m).
+fn around_a_ball(radius: f64, height: f64) -> Scene {
+    let mut shot = floating(vec![placed(|u| level(u - 0.5, height))]);
+    shot.obstacles = vec![Obstacle {
+        name: "ball".into(),
+        surface: Arc::new(ball(radius)),
+        deformation: None,
+        placement: Pose::IDENTITY,
+        motion: None,
+    }];
+    shot
+}
+
+#[test]
+fn a_garment_that_starts_inside_a_body_is_outside_at_frame_0() {
+    // Partly, and all of it.
+    for (radius, height) in [(0.2, 0.1), (0.2, 0.0), (0.8, 0.2)] {
+        let frames = run(around_a_ball(radius, height), SizingMode::Adaptive, 3);
+        for frame in &frames {
+            let report = &frame.report;
+            assert_eq!(report.trapped_nodes, 0, "{radius} {height}: {}", frame.number);
+            let cut = report.warnings.iter().any(|w| w.contains("cut obstacles"));
+            assert!(!cut, "{radius} {height}, {}: {:?}", frame.number, report.warnings);
+            assert!(report.largest_stretch.is_finite());
+        }
+    }
+}
