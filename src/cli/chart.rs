@@ -1,6 +1,7 @@
 //! `shotsilk chart`: suites of measurements, as tables and files.
 
 mod bending;
+mod untangling;
 mod visible_error;
 
 use std::path::PathBuf;
@@ -48,6 +49,8 @@ enum Suite {
     Validation,
     /// What models of bending cost, and how far off they are: bending.json, bending.svg
     Bending,
+    /// How methods take the same tangles of sheets apart: untangling.csv, untangling.svg
+    Untangling,
     /// What coarsening costs a shot on screen, against a fine reference run of it: charts, tables,
     /// and the runs
     VisibleError,
@@ -74,7 +77,7 @@ impl ChartArgs {
         let only = (only.is_some(), "--only");
         let given: Vec<(bool, &'static str)> = match suite {
             Suite::Validation => of_shots.to_vec(),
-            Suite::Bending => of_shots.into_iter().chain([only]).collect(),
+            Suite::Bending | Suite::Untangling => of_shots.into_iter().chain([only]).collect(),
             Suite::VisibleError => of_visible_error.into_iter().chain([only]).collect(),
         };
         given.into_iter().find_map(|(is_given, name)| is_given.then_some(name))
@@ -93,6 +96,7 @@ pub fn run(args: &ChartArgs, log: LogArgs) -> Result<()> {
     match args.suite {
         Suite::Validation => validation(args),
         Suite::Bending => bending::run(&args.out),
+        Suite::Untangling => untangling::run(&args.out),
         Suite::VisibleError => visible_error(args, log),
     }
 }
