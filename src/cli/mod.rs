@@ -4,6 +4,7 @@ mod args;
 mod chart;
 mod compare;
 mod failure;
+mod figure;
 mod footage;
 mod interrupt;
 mod leftovers;
@@ -40,6 +41,8 @@ enum Command {
     Render(render::RenderArgs),
     /// Draw a contact sheet of a shot or a run
     Sheet(sheet::SheetArgs),
+    /// Put pictures side by side, with text under them
+    Figure(figure::FigureArgs),
     /// Compare two runs as the shot camera sees them, or two pictures
     Compare(compare::CompareArgs),
     /// Measure a suite of figures and hold them against what is known
@@ -57,6 +60,7 @@ pub fn main() -> ExitCode {
         Command::Simulate(args) => simulate::run(&args, cli.log),
         Command::Render(args) => render::run(&args, cli.log),
         Command::Sheet(args) => sheet::run(&args, cli.log),
+        Command::Figure(args) => figure::run(&args),
         Command::Compare(args) => compare::run(&args, cli.log),
         Command::Chart(args) => chart::run(&args, cli.log),
         Command::Schema => output::print(schema::run()),

@@ -6,7 +6,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use image::{ImageFormat, RgbaImage};
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{DynamicImage, ImageFormat, RgbaImage};
 use tempfile::NamedTempFile;
 
 use super::leftovers;
@@ -69,6 +70,22 @@ impl PendingFile {
         let mut bytes = io::Cursor::new(Vec::new());
         image
             .write_to(&mut bytes, ImageFormat::Png)
+            .with_context(|| format!("cannot write {:?}", self.path.display()))?;
+        self.write(bytes.get_ref())
+    }
+
+    /// A picture for a page: without its opacity, and as small as the encoder can make it, which
+    /// takes it longer.
+    ///
+    /// # Errors
+    /// If the file system refuses.
+    pub fn write_small_png(self, image: &RgbaImage) -> Result<()> {
+        let mut bytes = io::Cursor::new(Vec::new());
+        let opaque = DynamicImage::ImageRgba8(image.clone()).into_rgb8();
+        let encoder =
+            PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
+        opaque
+            .write_with_encoder(encoder)
             .with_context(|| format!("cannot write {:?}", self.path.display()))?;
         self.write(bytes.get_ref())
     }

@@ -8,8 +8,8 @@ use image::RgbaImage;
 use super::failure::Failure;
 use super::footage::Footage;
 use crate::render::{
-    AdapterChoice, Bounds, CameraTrail, ColourBy, Headless, LogRange, PictureOptions, ShotCamera,
-    WitnessSubject, size_of_width, witness_view,
+    AdapterChoice, Bounds, CameraTrail, ColourBy, Edges, Headless, LogRange, PictureOptions,
+    ShotCamera, WitnessSubject, size_of_width, witness_view,
 };
 use crate::shot::{CameraKey, CameraPath, Lens, Track, View};
 use crate::sim::Frame;
@@ -26,6 +26,9 @@ pub struct PictureArgs {
     /// Place of the witness camera and what it looks at, in metres; without it one is found
     #[arg(long, value_name = "X,Y,Z:X,Y,Z", value_parser = parse_witness, allow_hyphen_values = true)]
     pub witness: Option<WitnessPlace>,
+    /// How the edges of the mesh are coloured
+    #[arg(long, value_enum, default_value_t = EdgeColour::Dark)]
+    pub edges: EdgeColour,
     /// Leave out the edges of the mesh
     #[arg(long)]
     pub no_wireframe: bool,
@@ -42,6 +45,16 @@ pub enum Colour {
     Strain,
     /// The fabric
     Plain,
+}
+
+/// `--edges`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum EdgeColour {
+    /// Darker than the cloth
+    Dark,
+    /// By the shot camera's frame: visible blue, turned away grey, within the margin cyan, farther
+    /// green
+    Frame,
 }
 
 /// A witness camera from the command line.
@@ -94,6 +107,10 @@ impl<'a> Studio<'a> {
         let options = PictureOptions {
             size: Some(size),
             colour_by: colour_by(args.colour, footage)?,
+            edges: match args.edges {
+                EdgeColour::Dark => Edges::Dark,
+                EdgeColour::Frame => Edges::ByFrame(footage.view_settings()),
+            },
             wire_strength: if args.no_wireframe { 0.0 } else { defaults.wire_strength },
             ground_height: Some(subject.cloth.min.z),
             ..defaults

@@ -13,7 +13,8 @@ use super::log::LogArgs;
 use super::output::{self, PendingFolder};
 use super::pictures::{PictureArgs, Studio};
 use super::progress::{Progress, ProgressMode};
-use crate::render::Headless;
+use crate::render::{Headless, screen_edges};
+use crate::sim::Frame;
 
 #[derive(Args, Debug)]
 pub struct RenderArgs {
@@ -36,6 +37,9 @@ pub struct RenderArgs {
     /// Draw the legend of the colours into the pictures
     #[arg(long)]
     legend: bool,
+    /// Print how long the visible edges are at each frame, as CSV: in the cloth (m), on the image (px)
+    #[arg(long)]
+    edge_lengths: bool,
 }
 
 /// `--view`.
@@ -59,6 +63,7 @@ pub fn run(args: &RenderArgs, log: LogArgs) -> Result<()> {
     let footage = Footage::open(&args.shot, args.every, &interrupt, log)?;
     let mut studio = Studio::new(&footage, gpu, &args.pictures, args.width)?;
     studio.options_mut().legend_px = args.legend.then_some(LEGEND_PX);
+    let mut lengths = vec!["frame,faces,visible_faces,edge_length_m,edge_length_px".to_owned()];
     let mut progress = Progress::new(footage.frames().len() as u64, ProgressMode::detect(log));
     for &number in footage.frames() {
         if let Some(signal) = interrupt.requested() {
@@ -72,8 +77,26 @@ pub fn run(args: &RenderArgs, log: LogArgs) -> Result<()> {
         if args.view != Views::Shot {
             folder.file(&format!("{shown:04}.witness.png"))?.write_png(&studio.witness(&frame)?)?;
         }
+        if args.edge_lengths {
+            lengths.push(edge_lengths(&frame, &footage));
+        }
         progress.frame(&frame, footage.info().first_frame);
     }
     progress.finish();
-    output::print(args.out.display())
+    output::print(args.out.display())?;
+    if args.edge_lengths { output::print(lengths.join("\n")) } else { Ok(()) }
+}
+
+/// A row of the table that `--edge-lengths` prints; empty where nothing is visible.
+fn edge_lengths(frame: &Frame, footage: &Footage) -> String {
+    let view = footage.camera().view(f64::from(frame.number));
+    let shown = i64::from(frame.number) + footage.info().first_frame;
+    let faces = frame.face_count();
+    match screen_edges(&frame.garments, &view) {
+        None => format!("{shown},{faces},0,,"),
+        Some(edges) => format!(
+            "{shown},{faces},{},{:.6},{:.3}",
+            edges.face_count, edges.length, edges.length_px
+        ),
+    }
 }

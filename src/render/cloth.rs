@@ -7,7 +7,7 @@ use crate::mesh::Mesh;
 use super::colour::Srgb;
 use super::colour_by::ColourBy;
 use super::draw_list::{Material, SurfaceBatch, SurfaceVertex};
-use super::options::{PictureOptions, Shading};
+use super::options::{Edges, PictureOptions, Shading};
 
 /// Front and back of plain garments, which take turns.
 const FABRICS: [[Srgb; 2]; 4] = [
@@ -58,7 +58,11 @@ fn material(index: usize, options: &PictureOptions) -> Material {
     Material {
         tint: FABRICS[index % FABRICS.len()],
         table: options.colour_by.table(),
-        wire_strength: options.wire_strength,
+        // Edges that are lines of their own take the dark ones' place.
+        wire_strength: match options.edges {
+            Edges::Dark => options.wire_strength,
+            Edges::ByFrame(_) => 0.0,
+        },
         sheen: if plain { 0.35 } else { 0.1 },
         modelling: if plain { 1.0 } else { MAPPED_MODELLING },
     }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
 use image::RgbaImage;
 
 use crate::scene::Surface;
@@ -12,9 +13,25 @@ use super::camera_glyph::ShotCamera;
 use super::draw_list::DrawList;
 use super::gpu::{AdapterChoice, Gpu, RenderError};
 use super::legend;
-use super::options::PictureOptions;
+use super::options::{Edges, PictureOptions};
 use super::renderer::Renderer;
 use super::target::TargetTexture;
+
+/// What a frame shows to an eye, the mesh's edges included; the shot camera's view decides their
+/// colours.
+fn list_with_edges(
+    frame: &Frame,
+    surfaces: &[Arc<Surface>],
+    shot: &View,
+    eye: DVec3,
+    options: &PictureOptions,
+) -> DrawList {
+    let mut list = DrawList::new(frame, surfaces, options);
+    if let Edges::ByFrame(settings) = &options.edges {
+        list.push_frame_edges(&frame.garments, settings, shot, eye, options.wire_width_px);
+    }
+    list
+}
 
 /// Draws frames to images.
 pub struct Headless {
@@ -56,7 +73,8 @@ impl Headless {
         view: &View,
         options: &PictureOptions,
     ) -> Result<RgbaImage, RenderError> {
-        self.finished_picture(&DrawList::new(frame, surfaces, options), view, options)
+        let list = list_with_edges(frame, surfaces, view, view.eye, options);
+        self.finished_picture(&list, view, options)
     }
 
     /// A frame as the witness sees it, the shot camera with it.
@@ -71,7 +89,7 @@ impl Headless {
         camera: &ShotCamera<'_>,
         options: &PictureOptions,
     ) -> Result<RgbaImage, RenderError> {
-        let mut list = DrawList::new(frame, surfaces, options);
+        let mut list = list_with_edges(frame, surfaces, camera.view, witness.eye, options);
         list.push_shot_camera(camera, witness.eye);
         self.finished_picture(&list, witness, options)
     }

@@ -1,5 +1,6 @@
 //! How a frame is shown. Plain data with defaults.
 
+use crate::scene::ViewSettings;
 use crate::shot::View;
 
 use super::colour::Srgb;
@@ -13,6 +14,7 @@ pub struct PictureOptions {
     pub size: Option<[u32; 2]>,
     pub colour_by: ColourBy,
     pub shading: Shading,
+    pub edges: Edges,
     /// How dark the mesh's edges are drawn, 0 (not at all) to 1.
     pub wire_strength: f32,
     /// Width of the mesh's edges (px).
@@ -41,6 +43,17 @@ pub enum Shading {
     Flat,
 }
 
+/// How the mesh's edges are coloured.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Edges {
+    /// Darker than the face.
+    #[default]
+    Dark,
+    /// By where the faces are to the shot camera, see [`FramePlace`](super::FramePlace); with the
+    /// settings of each garment, whose margins count.
+    ByFrame(Vec<ViewSettings>),
+}
+
 /// A gradient behind everything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Background {
@@ -61,6 +74,7 @@ impl Default for PictureOptions {
             size: None,
             colour_by: ColourBy::ViewFactor(LogRange { start: 1.0, end: 0.01 }),
             shading: Shading::Smooth,
+            edges: Edges::default(),
             wire_strength: 0.55,
             wire_width_px: 1.0,
             ground_height: None,

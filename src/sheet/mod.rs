@@ -1,8 +1,10 @@
 //! Contact sheets: chosen frames of a run on one page, shot and witness view side by side.
 
+mod figure;
 mod layout;
 mod page;
 
+pub use figure::{FigurePart, figure};
 pub use layout::{Layout, Place, chosen_frames};
 pub use page::compose;
 

@@ -7,8 +7,8 @@ use super::layout::{CAPTION_HEIGHT, Layout, MARGIN, Place};
 use super::{Caption, SheetItem, SheetOptions};
 use crate::render::{Align, Face, Srgb, draw_legend, draw_text, legend_size, text_width};
 
-const PAPER: Srgb = Srgb([250, 250, 249]);
-const INK: Srgb = Srgb([30, 32, 36]);
+pub(super) const PAPER: Srgb = Srgb([250, 250, 249]);
+pub(super) const INK: Srgb = Srgb([30, 32, 36]);
 const FAINT: Srgb = Srgb([100, 104, 112]);
 const FRAME: Srgb = Srgb([198, 200, 205]);
 
