@@ -53,7 +53,8 @@ mod tests {
         // A metre is 200 px there.
         let view = overhead([200, 200]);
         let seen = [[0.0; 3], [0.3, 0.0, 0.0], [0.0, 0.4, 0.0]];
-        let turned = [[0.0; 3], [0.0, 0.1, 0.0], [0.1, 0.0, 0.0]];
+        // It falls away from the camera, steeply.
+        let turned = [[0.3, 0.0, 0.1], [0.31, 0.0, -0.3], [0.3, 0.05, 0.1]];
         let out = [[3.0, 0.0, 0.0], [4.0, 0.0, 0.0], [3.0, 1.0, 0.0]];
         let edges = screen_edges(&[Arc::new(flat(&[seen, turned, out]))], &view).unwrap();
         assert_eq!(edges.face_count, 1);
