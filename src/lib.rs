@@ -2,10 +2,10 @@
 //!
 //! The modules stand in reading order; each uses only those above it:
 //! what is simulated ([`math`], [`mesh`], [`scene`], [`shot`]), how fine ([`sizing`], [`view`],
-//! [`remesh`]), how it moves ([`dynamics`], [`collision`], [`sim`]) and how right that is
-//! ([`validation`]), what two runs have in common ([`resample`]), how it is kept ([`run`]) and shown
-//! ([`render`], [`sheet`]), how it is judged ([`compare`], [`chart`]), and how it is started
-//! ([`cli`]).
+//! [`remesh`]), how it moves ([`dynamics`], [`collision`], [`sim`]), how right that is
+//! ([`validation`]) and where it fails ([`stability`]), what two runs have in common ([`resample`]),
+//! how it is kept ([`run`]) and shown ([`render`], [`sheet`]), how it is judged ([`compare`],
+//! [`chart`]), and how it is started ([`cli`]).
 //!
 //! # One frame
 //! ```text
@@ -40,6 +40,8 @@ pub mod dynamics;
 pub mod sim;
 
 pub mod validation;
+
+pub mod stability;
 
 pub mod resample;
 

@@ -1,6 +1,7 @@
 //! `shotsilk chart`: suites of measurements, as tables and files.
 
 mod bending;
+mod stability;
 mod untangling;
 mod visible_error;
 
@@ -31,7 +32,7 @@ pub struct ChartArgs {
     /// The folder to write into
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
-    /// Only rows whose name contains this
+    /// Only rows or stresses whose name contains this
     #[arg(long, value_name = "PATTERN")]
     only: Option<String>,
     /// Compare shaded pictures of the runs as well
@@ -51,6 +52,8 @@ enum Suite {
     Bending,
     /// How methods take the same tangles of sheets apart: untangling.csv, untangling.svg
     Untangling,
+    /// Growing stress until the simulator fails: stability.csv, stability.md, stability.svg
+    Stability,
     /// What coarsening costs a shot on screen, against a fine reference run of it: charts, tables,
     /// and the runs
     VisibleError,
@@ -76,7 +79,7 @@ impl ChartArgs {
             [(sizing.is_some(), "--sizing"), (edge_length.is_some(), "--edge-length")];
         let only = (only.is_some(), "--only");
         let given: Vec<(bool, &'static str)> = match suite {
-            Suite::Validation => of_shots.to_vec(),
+            Suite::Validation | Suite::Stability => of_shots.to_vec(),
             Suite::Bending | Suite::Untangling => of_shots.into_iter().chain([only]).collect(),
             Suite::VisibleError => of_visible_error.into_iter().chain([only]).collect(),
         };
@@ -97,6 +100,7 @@ pub fn run(args: &ChartArgs, log: LogArgs) -> Result<()> {
         Suite::Validation => validation(args),
         Suite::Bending => bending::run(&args.out),
         Suite::Untangling => untangling::run(&args.out),
+        Suite::Stability => stability::run(&args.out, args.only.as_deref()),
         Suite::VisibleError => visible_error(args, log),
     }
 }

@@ -24,7 +24,7 @@ mod remesh_only;
 mod roll_up;
 pub mod sheet;
 pub mod specimen;
-mod stage;
+pub(crate) mod stage;
 mod stick_slip;
 pub mod tangle;
 mod triangulate;

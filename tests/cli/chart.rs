@@ -105,6 +105,22 @@ fn a_shot_is_charted_against_a_reference_run_and_finished_runs_are_used_again() 
 }
 
 #[test]
+fn a_stress_is_charted_from_mild_to_severe_as_map_and_tables() {
+    let folder = tempfile::tempdir().unwrap();
+    let outcome = run(folder.path(), "chart --suite stability --only wind --out a").succeeds();
+    assert!(outcome.stdout.contains("| wind |"), "{}", outcome.stdout);
+    assert!(outcome.stderr.contains("5 of 5: wind 100 m/s"), "{}", outcome.stderr);
+    let text =
+        |kind: &str| std::fs::read_to_string(folder.path().join(format!("a/stability.{kind}")));
+    let [csv, table, svg] = ["csv", "md", "svg"].map(|kind| text(kind).unwrap());
+    assert_eq!(csv.lines().count(), 1 + 5);
+    assert_eq!(table, outcome.stdout);
+    assert!(svg.starts_with("<svg") && svg.contains("25 m/s"));
+    run(folder.path(), "chart --suite stability --only gravity --out b").fails(2, &["gravity"]);
+    assert!(!folder.path().join("b").exists());
+}
+
+#[test]
 fn a_suite_takes_only_the_arguments_that_mean_something_to_it() {
     let shot = SmallShot::new();
     let before = shot.names("");
@@ -114,6 +130,7 @@ fn a_suite_takes_only_the_arguments_that_mean_something_to_it() {
         ("shot.json --suite validation", "validation has no use for a shot"),
         ("--suite validation --frames 3", "--frames"),
         ("--suite validation --set fps=25", "--set"),
+        ("--suite stability --frames 3", "stability has no use for --frames"),
         ("--suite bending --only a", "bending has no use for --only"),
         ("--suite bending --shaded", "--shaded"),
     ] {

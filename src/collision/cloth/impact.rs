@@ -26,18 +26,19 @@ pub(in crate::collision) struct ClothImpact {
 /// Sine of the angle below which edges count as parallel.
 const PARALLEL_SINE: f64 = 1e-6;
 
-/// Impacts among the pairs, in order of time, then of the pairs.
+/// Impacts among the pairs, in order of time, then of the pairs; features with some nodes touch
+/// at a distance (m) that is asked for.
 pub(super) fn impacts(
     topology: &Topology,
     pairs: &[ClothPair],
     [start, end]: [&[DVec3]; 2],
     among: Option<&[bool]>,
-    tolerance: f64,
+    touch: impl Fn([usize; 4]) -> f64 + Sync,
 ) -> Vec<ClothImpact> {
     let of = |&pair: &ClothPair| {
         let nodes = pair.nodes(topology);
         let is_asked_for = among.is_none_or(|among| nodes.iter().any(|&n| among[n]));
-        is_asked_for.then(|| ClothImpact::of(pair, nodes, [start, end], tolerance)).flatten()
+        is_asked_for.then(|| ClothImpact::of(pair, nodes, [start, end], touch(nodes))).flatten()
     };
     let mut found: Vec<ClothImpact> = pairs.par_iter().with_min_len(1024).filter_map(of).collect();
     found.sort_by(|a, b| a.time.total_cmp(&b.time));

@@ -14,6 +14,10 @@ const SHARE_OF_FLAT_DISTANCE: f64 = 0.5;
 /// seam, also of a panel with itself, their distance along the cloth is not that in the flat cloth.
 const SHARE_OF_JOINED: f64 = 0.1;
 
+/// Features touch from this share of the least height of their triangles in the flat cloth on, where
+/// that is finer than the touch of all cloth: the sides of a sliver are no passage.
+const TOUCH_IN_HEIGHTS: f64 = 0.25;
+
 /// All garments' faces in one numbering, in the flat cloth and as neighbours.
 pub struct Layers {
     /// Per face (m, flat cloth).
@@ -23,6 +27,8 @@ pub struct Layers {
     /// Per node its neighbours: `neighbour[first[n]..first[n + 1]]`, ascending.
     first: Vec<u32>,
     neighbour: Vec<u32>,
+    /// Per node the least height of the triangles around it (m, flat cloth).
+    height: Vec<f64>,
 }
 
 impl Layers {
@@ -37,7 +43,14 @@ impl Layers {
             panel_count += panels.count();
         }
         let (first, neighbour) = neighbours(topology, node_count);
-        Self { material, panel, first, neighbour }
+        let height = heights(&material, topology, node_count);
+        Self { material, panel, first, neighbour, height }
+    }
+
+    /// The distance at which features with these nodes touch (m), given that of all cloth.
+    pub(super) fn touch(&self, nodes: [usize; 4], touch: f64) -> f64 {
+        let least = nodes.iter().map(|&n| self.height[n]).fold(f64::INFINITY, f64::min);
+        touch.min(TOUCH_IN_HEIGHTS * least)
     }
 
     /// How far a pair is held apart (m), given the thickness of contact and the weights of the
@@ -88,6 +101,20 @@ impl Layers {
     fn are_neighbours(&self, a: usize, b: usize) -> bool {
         self.neighbours(a).binary_search(&(b as u32)).is_ok()
     }
+}
+
+/// Twice the area over the longest edge, the least of each node's triangles.
+fn heights(material: &[[DVec2; 3]], topology: &Topology, node_count: usize) -> Vec<f64> {
+    let mut heights = vec![f64::INFINITY; node_count];
+    for (&[a, b, c], nodes) in material.iter().zip(topology.triangles()) {
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let height = (b - a).perp_dot(c - a).abs() / longest.max(f64::MIN_POSITIVE);
+        for &node in nodes {
+            let least = &mut heights[node as usize];
+            *least = least.min(height);
+        }
+    }
+    heights
 }
 
 fn neighbours(topology: &Topology, node_count: usize) -> (Vec<u32>, Vec<u32>) {

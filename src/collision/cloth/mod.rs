@@ -113,8 +113,9 @@ impl ClothContact {
         tree: &'a FaceTree,
         settings: &'a Contact,
     ) -> ClothSearch<'a> {
-        let tangled = self.tangled.as_deref();
-        ClothSearch { topology: tree.topology(), pairs: &mut self.pairs, tangled, settings }
+        let Self { layers, pairs, tangled } = self;
+        let tangled = tangled.as_deref();
+        ClothSearch { topology: tree.topology(), pairs, layers, tangled, settings }
     }
 
     fn leave_out_tangled(&mut self, tree: &FaceTree) {

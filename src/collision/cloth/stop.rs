@@ -5,7 +5,7 @@
 
 use super::ROOM_IN_THICKNESSES;
 use super::impact::{ClothImpact, impacts};
-use super::layers::weighted;
+use super::layers::{Layers, weighted};
 use super::pairs::ClothPairs;
 use crate::collision::resolve::{MovedCloth, after_impact};
 use crate::collision::stop::TOUCH_IN_THICKNESSES;
@@ -36,12 +36,14 @@ pub(in crate::collision) struct ClothSearch<'a> {
     pub pairs: &'a mut ClothPairs,
     /// Nodes at places where cloth passes through itself: nothing stops these at one another.
     pub tangled: Option<&'a [bool]>,
+    pub layers: &'a Layers,
     pub settings: &'a Contact,
 }
 
 impl ClothSearch<'_> {
-    fn touch(&self) -> f64 {
-        TOUCH_IN_THICKNESSES * self.settings.thickness
+    /// The distance at which features with these nodes touch (m).
+    fn touch(&self, nodes: [usize; 4]) -> f64 {
+        self.layers.touch(nodes, TOUCH_IN_THICKNESSES * self.settings.thickness)
     }
 
     /// Impacts of the cloth as it moved, with one of some nodes or with any.
@@ -52,7 +54,7 @@ impl ClothSearch<'_> {
             self.pairs.leave_out(self.topology, tangled);
         }
         let ways = [cloth.position_at_start, &*cloth.position];
-        impacts(self.topology, self.pairs.found(), ways, among, self.touch())
+        impacts(self.topology, self.pairs.found(), ways, among, |nodes| self.touch(nodes))
     }
 }
 
@@ -76,7 +78,9 @@ pub(in crate::collision) fn stop_cloth(
             let is_stale = impact.nodes.iter().any(|&n| moves[n]);
             let ways = [cloth.position_at_start, &*cloth.position];
             let now = match is_stale {
-                true => ClothImpact::of(impact.pair, impact.nodes, ways, search.touch()),
+                true => {
+                    ClothImpact::of(impact.pair, impact.nodes, ways, search.touch(impact.nodes))
+                }
                 false => Some(impact),
             };
             if let Some(impact) = now {
@@ -95,8 +99,10 @@ pub(in crate::collision) fn stop_cloth(
 /// nodes: d_i = (w_i / m_i) / sum_k (w_k^2 / m_k) d.
 fn resolve_one(cloth: &mut MovedCloth<'_>, search: &ClothSearch<'_>, impact: &ClothImpact) {
     let ClothImpact { nodes, weights, normal, height_before, .. } = *impact;
-    let floor = height_before
-        .clamp(FLOOR_IN_TOUCHES * search.touch(), FLOOR_IN_THICKNESSES * search.settings.thickness);
+    let floor = height_before.clamp(
+        FLOOR_IN_TOUCHES * search.touch(nodes),
+        FLOOR_IN_THICKNESSES * search.settings.thickness,
+    );
     let lift = normal * (floor - normal.dot(weighted(cloth.position, nodes, weights)));
     let relative = weighted(cloth.velocity, nodes, weights);
     let change = after_impact(relative, normal, search.settings.friction_cloth) - relative;

@@ -20,8 +20,14 @@ const DT: f64 = 5e-3;
 /// A square sheet of n x n cells with a side of 1 m, placed in the world.
 fn sheet(n: u32, place: impl Fn(DVec2) -> DVec3) -> Mesh {
     let at = |i: u32, j: u32| DVec2::new(f64::from(i), f64::from(j)) / f64::from(n);
+    grid(n, at, place)
+}
+
+/// n x n cells with corners at the given places in the flat cloth.
+fn grid(n: u32, at: impl Fn(u32, u32) -> DVec2, place: impl Fn(DVec2) -> DVec3) -> Mesh {
     let node = |i: u32, j: u32| i * (n + 1) + j;
-    let points: Vec<DVec2> = (0..=n).flat_map(|i| (0..=n).map(move |j| at(i, j))).collect();
+    let points: Vec<DVec2> =
+        (0..=n).flat_map(|i| (0..=n).map(move |j| [i, j])).map(|[i, j]| at(i, j)).collect();
     let cells = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
     let faces = cells.flat_map(|(i, j)| {
         let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
@@ -249,6 +255,33 @@ fn flat_cloth_is_at_ease_however_fine_and_a_fold_may_close() {
     };
     assert!(contacts.iter().all(|c| c.normal.z.abs() > 0.9 && at(c) < 0.5));
     assert!(contacts.iter().any(|c| (c.gap + 0.006).abs() < 1e-9), "far from the fold");
+}
+
+#[test]
+fn slivers_narrower_than_a_touch_are_at_ease_and_still_stopped() {
+    // Every other column is 3 um wide, and cloth touches at 10 um.
+    let flat = |i: u32, j: u32| {
+        DVec2::new(0.1 * f64::from(i / 2) + 3e-6 * f64::from(i % 2), 0.05 * f64::from(j))
+    };
+    let slivers = |height: f64| grid(20, flat, |u| u.extend(height));
+    let mut alone = Scene::new(&[slivers(0.0)]);
+    assert_eq!(alone.contacts(), []);
+    alone.advance(|cloth, search| assert_eq!(search.impacts(cloth, None).len(), 0));
+    let mut two = Scene::new(&[slivers(0.0), slivers(0.02)]);
+    let count = two.position.len();
+    two.velocity[count / 2..].fill(DVec3::new(0.1, 0.2, -8.0));
+    two.contacts();
+    two.advance(|cloth, search| {
+        stop_cloth(cloth, search, None);
+        assert_eq!(Zones::new(cloth).settle(cloth, search, &[], |_, _| Vec::new()), 0);
+        assert!(search.impacts(cloth, None).is_empty());
+    });
+    assert_eq!(two.crossings(), 0);
+    // Sliding by up to a millimetre, the sides come off those of the other sheet.
+    let (below, above) = two.position.split_at(count / 2);
+    let is_inside = |x: &DVec3| x.truncate().cmpgt(DVec2::splat(0.01)).all() && x.x.max(x.y) < 0.99;
+    let inside: Vec<_> = below.iter().zip(above).filter(|(_, x)| is_inside(x)).collect();
+    assert!(inside.len() > 300 && inside.iter().all(|(low, high)| low.z < high.z));
 }
 
 #[test]
