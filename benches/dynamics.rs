@@ -75,7 +75,7 @@ fn steps(criterion: &mut Criterion) {
                     solver.expect_new_matrix();
                     let mut change = vec![DVec3::ZERO; right_side.len()];
                     solver
-                        .solve(matrix, black_box(right_side), &mut change, Accuracy::Fine)
+                        .solve(matrix, black_box(right_side), &mut change, Accuracy::FINE)
                         .expect("it is definite");
                 });
             });

@@ -9,7 +9,7 @@ use super::handles::HandleSpring;
 use super::iterate::Iterate;
 use super::matrix::BlockMatrix;
 use super::step::{StepForces, StepState};
-use super::stretch::MembraneTangent;
+use super::stretch::{MembraneTangent, green_strain, strain_rate};
 use super::system::{GarmentRanges, HingeSlots, System};
 use super::wind;
 use crate::math::outer;
@@ -23,7 +23,8 @@ impl System {
     /// Returns the number of hinges that have no angle and took no part.
     pub fn assemble(&mut self, state: &StepState, forces: &StepForces<'_>, dt: f64) -> usize {
         self.make_room_for(forces.contacts);
-        let degenerate_hinges = self.assemble_at(&Iterate::at_start(state), state, forces, dt);
+        let degenerate_hinges =
+            self.assemble_at(&Iterate::at_start(state), state, Some(&state.velocity), forces, dt);
         self.refer_to(&state.velocity);
         // The solution where nothing but gravity acts.
         self.change.fill(forces.gravity * dt);
@@ -31,13 +32,15 @@ impl System {
     }
 
     /// Fills the matrix with the tangent at an iterate of a step's end, and the right side with
-    /// what is out of balance there (N s): h f + m (v_0 + h g - v), contacts left out.
+    /// what is out of balance there (N s): h f + m (v_0 + h g - v), contacts left out. Which strain
+    /// limits are felt is judged where `expected` velocities (m/s) lead, or at the iterate.
     ///
     /// Returns the number of hinges that have no angle and took no part.
     pub(super) fn assemble_at(
         &mut self,
         iterate: &Iterate,
         start: &StepState,
+        expected: Option<&[DVec3]>,
         forces: &StepForces<'_>,
         dt: f64,
     ) -> usize {
@@ -45,7 +48,7 @@ impl System {
         self.touched.clear();
         self.solver.expect_new_matrix();
         self.add_inertia(iterate, start, forces.gravity, dt);
-        self.add_stretch(iterate, start, dt);
+        self.add_stretch(iterate, start, expected, dt);
         let degenerate_hinges = self.add_bending(iterate, start, dt);
         if wind::is_felt(&forces.air) {
             self.add_wind(iterate, start, &forces.air, dt);
@@ -86,14 +89,31 @@ impl System {
         }
     }
 
-    fn add_stretch(&mut self, iterate: &Iterate, start: &StepState, dt: f64) {
+    fn add_stretch(
+        &mut self,
+        iterate: &Iterate,
+        start: &StepState,
+        expected: Option<&[DVec3]>,
+        dt: f64,
+    ) {
         for garment in &self.garments {
             let viscosity = Viscosity::new(garment.fabric.damping(), dt);
             for index in garment.membranes.clone() {
                 let face = &self.membranes[index];
                 let deformation = face.gradient_of(&iterate.position);
-                let mut tangent =
-                    MembraneTangent::new(face.area, self.frozen.stretch[index], deformation);
+                let k = self.frozen.stretch[index];
+                let mut tangent = match self.root_alpha(index) {
+                    Some(root) => MembraneTangent::compensated(face.area, k, deformation, root),
+                    None => MembraneTangent::new(face.area, k, deformation),
+                };
+                if let Some(bounds) = &garment.strain_bounds {
+                    let strain = green_strain(deformation);
+                    let gain = expected.map(|v| strain_rate(deformation, face.gradient_of(v)) * dt);
+                    let ahead = gain.map_or(strain, |gain| strain + gain);
+                    if bounds.may_be_felt(ahead) {
+                        tangent = tangent.and(&bounds.derivatives(strain, ahead));
+                    }
+                }
                 if viscosity.is_felt() {
                     tangent = tangent.damped(viscosity, face.strain(&start.position));
                 }

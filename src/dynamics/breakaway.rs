@@ -86,8 +86,7 @@ impl System {
         let velocity = contact.weighted_sum(&state.velocity);
         let mass = contact.effective_mass(&self.masses);
         // A contact between points of cloth falls as a whole.
-        let weight_sum: f64 = contact.weights().map(|(_, weight)| weight).sum();
-        contact.response(velocity, forces.gravity * weight_sum, mass, dt)
+        contact.response(velocity, forces.gravity * contact.weight_sum(), mass, dt)
     }
 
     /// Notes the contacts that the solution (`change`) finds torn or lifted off; true if the step

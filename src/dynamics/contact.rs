@@ -12,6 +12,10 @@ pub const CONTACT_NODES: usize = 4;
 /// their weight; with 1000 a strip pressed on a plane creeps off at half of mu.
 const STICKING_RATIO: f64 = 1e5;
 
+/// The same of cloth on cloth: stiff contacts of many nodes each are what conjugate gradients are
+/// worst at. Under its own weight cloth creeps off cloth by 50 micrometres a second.
+const CLOTH_STICKING_RATIO: f64 = 1e3;
+
 /// The same where the step is iterated, and slip found whatever the creep: light nodes under the load
 /// of stiff cloth, a thousand times what inertia asks, may not creep visibly either.
 const ITERATED_STICKING_RATIO: f64 = 1e6;
@@ -70,6 +74,16 @@ impl ContactPoint {
         1.0 / self.weights().map(|(node, w)| w * w / masses[node]).sum::<f64>()
     }
 
+    /// The sum of all weights: 1 against an obstacle, 0 between points of cloth.
+    pub fn weight_sum(&self) -> f64 {
+        self.weights().map(|(_, weight)| weight).sum()
+    }
+
+    fn sticking_ratio(&self) -> f64 {
+        // Halfway between the two.
+        if self.weight_sum() > 0.5 { STICKING_RATIO } else { CLOTH_STICKING_RATIO }
+    }
+
     /// The response to the cloth's velocity at the contact point; `None` if the gap will be open at
     /// the end of the step under inertia and gravity, for a penalty must not pull.
     ///
@@ -93,7 +107,7 @@ impl ContactPoint {
     /// The response of a contact that is closed, with the pressure (N) that friction counts on.
     ///
     /// Normal: f_n = -k (gap + h n.(v + dv - v_s)). Friction: f_t = -c (I - n n^T)(v + dv - v_s)
-    /// with c of [`friction_coefficient`].
+    /// with c = min( mu N / |v_t|, r m / h ), r m / h being what holds a point that sticks.
     pub fn closed_response(
         &self,
         velocity: DVec3,
@@ -104,7 +118,8 @@ impl ContactPoint {
         let relative = velocity - self.surface_velocity;
         let separation = relative.dot(self.normal);
         let slip = relative - separation * self.normal;
-        let c = friction_coefficient(self.friction, pressure, slip.length(), mass, dt);
+        let sticking = self.sticking_ratio() * mass / dt;
+        let c = coefficient(self.friction * pressure, sticking, slip.length());
         let projector = outer(self.normal, self.normal);
         let push = -self.stiffness * (self.gap + dt * separation);
         ContactResponse {
@@ -211,19 +226,14 @@ pub fn pressure_estimate(gap: f64, separation: f64, stiffness: f64, mass: f64, d
     predicted.min(stopping)
 }
 
-/// c = min( mu N / |v_t|, r m / h ) (N s/m), with v_t the slip velocity at the start of the step and
-/// r = 1e5.
+/// c = min( mu N / |v_t|, r m / h ) (N s/m), with mu N the limit, v_t the slip velocity at the start
+/// of the step and r the sticking ratio.
 ///
 /// A point that slips feels mu N against its motion; at the end of the step the force is c times the
 /// slip left, hence less while it brakes, never reversed. Below the slip at which both terms are
 /// equal the point sticks: it creeps at 1/r of the speed that the unbalanced force would give it in
 /// one step. A force beyond mu N lets the creep grow by the ratio of the two each step until it
 /// slips.
-pub fn friction_coefficient(mu: f64, pressure: f64, slip: f64, mass: f64, dt: f64) -> f64 {
-    coefficient(mu * pressure, STICKING_RATIO * mass / dt, slip)
-}
-
-/// min( limit / slip, sticking ) (N s/m).
 fn coefficient(limit: f64, sticking: f64, slip: f64) -> f64 {
     // Compared as forces: no division by a slip of zero.
     if limit >= sticking * slip {

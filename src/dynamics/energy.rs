@@ -52,7 +52,7 @@ impl System {
             for index in garment.membranes.clone() {
                 let (face, k) = (&self.membranes[index], self.frozen.stretch[index]);
                 let strain = face.strain(&iterate.position);
-                let mut density = energy_density(k, strain);
+                let mut density = self.elastic_density(garment, index, strain);
                 if viscosity.is_felt() {
                     let increment = strain - face.strain(&start.position);
                     density += viscosity.ratio * energy_density(k, increment);

@@ -29,6 +29,7 @@ mod newton;
 #[cfg(test)]
 mod newton_tests;
 mod plate;
+pub mod principal;
 pub mod solve;
 mod step;
 pub mod stretch;

@@ -165,7 +165,7 @@ impl System {
         assert_eq!(state.velocity.len(), self.node_count(), "velocities are those of the system");
         state.check_finite()?;
         let before = self.solver.counts();
-        let (end, mut outcome) = match self.settings.iterations {
+        let (end, mut outcome) = match self.iterations() {
             0 | 1 => self.linearised_step(state, forces, dt)?,
             _ => self.iterated_step(state, forces, dt)?,
         };
@@ -192,20 +192,28 @@ impl System {
         let mut active_contacts = self.add_found_contacts(start, forces, dt);
         let mut solutions = 1;
         if !forces.contacts.is_empty() {
-            self.solve_change(Accuracy::Rough)?;
+            self.solve_change(Accuracy::ROUGH)?;
             while solutions <= CORRECTIONS_MAX && self.examine_contacts(start, forces, dt) {
                 self.remove_contacts();
                 self.right_side.copy_from_slice(&free_side);
                 active_contacts = self.add_found_contacts(start, forces, dt);
-                self.solve_change(Accuracy::Rough)?;
+                self.solve_change(Accuracy::ROUGH)?;
                 solutions += 1;
             }
         }
-        self.solve_change(Accuracy::Fine)?;
+        // Cloth that hangs or lies still need not be known better than cloth that falls. What holds
+        // it there must: the rough solutions look at forces.
+        let falling = self.energy_of_falling(forces.gravity * dt);
+        self.solve_change(Accuracy::FINE.of_at_least(falling))?;
         let outcome =
             StepOutcome { degenerate_hinges, active_contacts, solutions, ..StepOutcome::default() };
         let begun = Iterate { position: Vec::new(), velocity: start.velocity.clone() };
         Ok((begun.moved(&self.change, 1.0, start, dt), outcome))
+    }
+
+    /// dv . M dv of a change of velocity that all nodes share (J).
+    fn energy_of_falling(&self, change: DVec3) -> f64 {
+        self.masses.iter().sum::<f64>() * change.length_squared()
     }
 
     /// Adds the contacts as they have been found so far; returns how many push.

@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use super::damping::Viscosity;
+use super::principal::{StrainDerivatives, compensated_derivatives};
 use crate::math::{Mat3x2, SymTensor2, outer};
 use crate::scene::StretchStiffness;
 
@@ -37,6 +38,13 @@ impl Membrane {
 /// E = 1/2 (F^T F - I).
 pub fn green_strain(deformation: Mat3x2) -> SymTensor2 {
     (deformation.gram() - SymTensor2::IDENTITY) * 0.5
+}
+
+/// dE/dt = 1/2 (F^T dF/dt + dF/dt^T F) (1/s).
+pub fn strain_rate(deformation: Mat3x2, rate: Mat3x2) -> SymTensor2 {
+    let (f, r) = (deformation, rate);
+    let xy = 0.5 * (f.x_axis.dot(r.y_axis) + f.y_axis.dot(r.x_axis));
+    SymTensor2 { xx: f.x_axis.dot(r.x_axis), xy, yy: f.y_axis.dot(r.y_axis) }
 }
 
 /// psi = 1/2 (k_uu E_uu^2 + k_vv E_vv^2) + k_uv E_uu E_vv + k_shear E_uv^2 (J/m^2), the stiffness
@@ -75,8 +83,10 @@ pub struct MembraneTangent {
     stress: SymTensor2,
     pulling_stress: SymTensor2,
     stiffness: StretchStiffness,
-    /// What the material part of the tangent is multiplied by.
+    /// What the tangent of `stiffness` is multiplied by.
     material: f64,
+    /// The second derivative of what is not orthotropic.
+    principal: Option<[[f64; 3]; 3]>,
     squares: [DMat3; 4],
 }
 
@@ -91,8 +101,35 @@ impl MembraneTangent {
             pulling_stress: pulling_part(stress),
             stiffness: bounded(k),
             material: 1.0,
+            principal: None,
             squares: [outer(fu, fu), outer(fv, fv), outer(fu, fv), outer(fv, fu)],
         }
+    }
+
+    /// Of a face that buckles between its nodes: see
+    /// [`compensated_strain`](super::principal::compensated_strain).
+    pub fn compensated(
+        area: f64,
+        k: StretchStiffness,
+        deformation: Mat3x2,
+        root_alpha: f64,
+    ) -> Self {
+        let plain = Self::new(area, k, deformation);
+        let strain = green_strain(deformation);
+        let derivatives = compensated_derivatives(plain.stiffness, strain, root_alpha);
+        let cleared = Self { stress: SymTensor2::ZERO, material: 0.0, ..plain };
+        cleared.and(&derivatives)
+    }
+
+    /// Adds an energy of the strain.
+    pub fn and(mut self, energy: &StrainDerivatives) -> Self {
+        self.stress += energy.stress();
+        self.pulling_stress = pulling_part(self.stress);
+        let sum = self.principal.get_or_insert_default();
+        for (row, more) in sum.iter_mut().zip(energy.second) {
+            row.iter_mut().zip(more).for_each(|(entry, m)| *entry += m);
+        }
+        self
     }
 
     /// Adds the stress of a viscosity against the strain since the start of the step:
@@ -101,7 +138,7 @@ impl MembraneTangent {
         let increment = green_strain(self.deformation) - strain_at_start;
         self.stress += stress(self.stiffness, increment) * viscosity.ratio;
         self.pulling_stress = pulling_part(self.stress);
-        self.material = 1.0 + viscosity.ratio;
+        self.material += viscosity.ratio;
         self
     }
 
@@ -123,6 +160,20 @@ impl MembraneTangent {
             + DMat3::from_diagonal(DVec3::splat(
                 self.area * self.pulling_stress.bilinear_form(gi, gj),
             ))
+            + self.principal_block(gi, gj)
+    }
+
+    /// A sum_pq C_pq b_p(i) b_q(j)^T of a general C, with b_uu = g_u F_u, b_vv = g_v F_v and
+    /// b_uv = 1/2 (g_u F_v + g_v F_u).
+    fn principal_block(&self, gi: DVec2, gj: DVec2) -> DMat3 {
+        let Some(second) = &self.principal else { return DMat3::ZERO };
+        let (fu, fv) = (self.deformation.x_axis, self.deformation.y_axis);
+        let changes = |g: DVec2| [fu * g.x, fv * g.y, (fu * g.y + fv * g.x) * 0.5];
+        let (bi, bj) = (changes(gi), changes(gj));
+        let rows = bi.iter().zip(second).map(|(b, row)| {
+            outer(*b * self.area, bj[0] * row[0] + bj[1] * row[1] + bj[2] * row[2])
+        });
+        rows.fold(DMat3::ZERO, |sum, block| sum + block)
     }
 }
 

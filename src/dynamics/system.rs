@@ -9,9 +9,11 @@ use super::bending::{Hinge, dihedral_angle};
 use super::breakaway::Finding;
 use super::folds::FoldLaw;
 use super::matrix::{BlockMatrix, Pattern};
+use super::principal::{StrainBounds, compensated_strain};
 use super::solve::{LinearSolver, SolverCounts};
 use super::step::StepState;
-use super::stretch::Membrane;
+use super::stretch::{Membrane, energy_density};
+use crate::math::SymTensor2;
 use crate::mesh::{CornerId, FaceId, Id, Mesh};
 use crate::scene::{Dynamics, Fabric, StretchStiffness};
 
@@ -26,6 +28,8 @@ pub struct System {
     pub(super) masses: Vec<f64>,
     pub(super) membranes: Vec<Membrane>,
     pub(super) membrane_slots: Vec<[u32; 6]>,
+    /// Per membrane the root of alpha; empty where no face is compensated.
+    pub(super) root_alphas: Vec<f64>,
     pub(super) hinges: Vec<Hinge>,
     pub(super) hinge_slots: Vec<HingeSlots>,
     pub(super) frozen: FrozenStiffness,
@@ -52,6 +56,8 @@ pub(super) struct GarmentRanges {
     pub nodes: Range<usize>,
     pub membranes: Range<usize>,
     pub hinges: Range<usize>,
+    /// What resists strain beyond the fabric's limits.
+    pub strain_bounds: Option<StrainBounds>,
     /// What the hinges' moments are if not each hinge's own.
     pub fold_law: Option<FoldLaw>,
 }
@@ -73,6 +79,14 @@ pub(super) struct FrozenStiffness {
     pub bending: Vec<f64>,
 }
 
+/// K of a strain limit (N/m): a load of 100 N/m, as of a flag in a storm, goes beyond it by 1 %.
+/// Twice as stiff costs half as much again.
+const STRAIN_LIMIT_STIFFNESS: f64 = 1e4;
+
+/// Newton iterations a step of cloth with strain limits: linearised, a limit that a face reaches
+/// or leaves within the step, or meets while it turns, is met too early, too late or not at all.
+const LIMITED_ITERATIONS: u32 = 3;
+
 impl System {
     /// A system of one fabric per mesh, its stiffness frozen at the meshes' positions.
     ///
@@ -93,6 +107,7 @@ impl System {
             masses: Vec::new(),
             membranes: Vec::new(),
             membrane_slots: Vec::new(),
+            root_alphas: Vec::new(),
             hinges: Vec::new(),
             hinge_slots: Vec::new(),
             frozen: FrozenStiffness::default(),
@@ -119,6 +134,40 @@ impl System {
     pub fn set_dynamics(&mut self, settings: Dynamics) {
         self.settings = settings;
         self.solver.set_choice(settings.solver);
+    }
+
+    /// Lets fabrics be strained beyond their limits.
+    pub fn lift_strain_limits(&mut self) {
+        self.garments.iter_mut().for_each(|garment| garment.strain_bounds = None);
+    }
+
+    /// Takes faces for buckled between their nodes as far as 1 - alpha says, from now on; alpha is
+    /// in [0, 1], face after face through all garments ([`VD15`](crate::papers::VD15) eq. 11).
+    ///
+    /// # Panics
+    /// If there are not as many as faces.
+    pub fn set_compensation(&mut self, alphas: &[f64]) {
+        assert_eq!(alphas.len(), self.membranes.len(), "every face has its alpha");
+        self.root_alphas.clear();
+        if alphas.iter().any(|&alpha| alpha < 1.0) {
+            self.root_alphas.extend(alphas.iter().map(|alpha| alpha.max(0.0).sqrt()));
+        }
+    }
+
+    /// Takes no face for buckled, from now on.
+    pub fn lift_compensation(&mut self) {
+        self.root_alphas.clear();
+    }
+
+    /// Newton iterations of a step: as set, or as many as strain limits ask for.
+    pub(super) fn iterations(&self) -> u32 {
+        let is_limited = self.garments.iter().any(|garment| garment.strain_bounds.is_some());
+        self.settings.iterations.max(if is_limited { LIMITED_ITERATIONS } else { 1 })
+    }
+
+    /// The root of a face's alpha; `None` where nothing is compensated.
+    pub(super) fn root_alpha(&self, membrane: usize) -> Option<f64> {
+        self.root_alphas.get(membrane).copied().filter(|&root| root < 1.0)
     }
 
     /// Goes on with another system's solver: where the pattern is the same, its analysis is kept.
@@ -195,9 +244,31 @@ impl System {
     /// Stretch and bending at the stiffness last frozen (J).
     pub fn potential_energy(&self, state: &StepState) -> f64 {
         let positions = &state.position;
-        let stretch = self.membranes.iter().zip(&self.frozen.stretch);
-        let bending = self.garments.iter().map(|garment| self.elastic_bending(garment, positions));
-        stretch.map(|(face, &k)| face.energy(k, positions)).sum::<f64>() + bending.sum::<f64>()
+        let of_garment = |garment: &GarmentRanges| {
+            let of_face = |index: usize| {
+                let face = &self.membranes[index];
+                face.area * self.elastic_density(garment, index, face.strain(positions))
+            };
+            let stretch: f64 = garment.membranes.clone().map(of_face).sum();
+            stretch + self.elastic_bending(garment, positions)
+        };
+        self.garments.iter().map(of_garment).sum()
+    }
+
+    /// psi of a face at a strain, with compensation and limits (J/m^2).
+    pub(super) fn elastic_density(
+        &self,
+        garment: &GarmentRanges,
+        membrane: usize,
+        strain: SymTensor2,
+    ) -> f64 {
+        let k = self.frozen.stretch[membrane];
+        let compensated = match self.root_alpha(membrane) {
+            Some(root) => compensated_strain(strain, root),
+            None => strain,
+        };
+        let bounds = garment.strain_bounds.map_or(0.0, |bounds| bounds.energy_density(strain));
+        energy_density(k, compensated) + bounds
     }
 
     /// (J).
@@ -254,6 +325,9 @@ impl System {
             nodes: offset..self.node_count(),
             membranes: first_membrane..self.membranes.len(),
             hinges: first_hinge..self.hinges.len(),
+            strain_bounds: fabric
+                .strain_limits()
+                .map(|ratios| StrainBounds::of_stretch(ratios, STRAIN_LIMIT_STIFFNESS)),
             fold_law: fabric.plate().and_then(|(plate, model)| FoldLaw::new(mesh, plate, model)),
         });
     }

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! start:    take apart, refine and relax what was given -> frame 0
-//! advance:  for each step    obstacles and handles move -> contacts -> implicit step -> resolve
+//! advance:  buckling of what nobody sees
+//!           for each step    obstacles and handles move -> contacts -> implicit step -> resolve
 //!           once             base metric -> view factor -> vertex metric -> remesh -> untangle
 //!           publish          a frame that never changes again
 //! ```
@@ -134,12 +135,15 @@ impl Simulation {
         let mut clock = StageClock::start();
         let mut report = FrameReport::default();
         self.cloth.forget_the_past(&self.garments, &mut clock);
+        clock.time(Stage::View, || self.compensate_buckling());
         clock.time(Stage::Untangle, || self.let_go_of_tangles());
         let (start, step_time) = (self.time(), self.scene.step_time());
         for step in 0..self.scene.steps_per_frame {
             let time = start + f64::from(step) * step_time;
             self.step(time, step_time, Regime::Motion, &mut clock, &mut report)?;
         }
+        // What is measured and compared is the cloth's own energy.
+        self.cloth.system.lift_compensation();
         self.frame += 1;
         self.cloth.write_back(&mut self.garments);
         if self.is_remeshing() {
@@ -221,6 +225,9 @@ impl MovingCloth {
             scene.stages.self_contact.then(|| ClothContact::new(garments, &tree, &state.position));
         let mut system = System::new(&meshes, &fabrics);
         system.set_dynamics(scene.dynamics);
+        if !scene.stages.strain_limiting {
+            system.lift_strain_limits();
+        }
         Self {
             system,
             tree,

@@ -8,7 +8,7 @@ use crate::math::SymTensor2;
 use crate::mesh::{IdVec, Mesh, NodeId};
 use crate::remesh::{Change, EditGuard, RemeshReport, RemeshSettings, remesh};
 use crate::sizing::{Plane, base_metric, faces_to_vertices};
-use crate::view::{ViewerWindow, view_field};
+use crate::view::{ViewerWindow, buckling_alphas, view_field};
 
 /// Obstacles farther away than this many contact thicknesses do not refine the cloth
 /// ([`NSO12`](crate::papers::NSO12)).
@@ -117,17 +117,32 @@ impl Simulation {
         base_metric(&self.garments[index], &self.scene.garments[index].sizing, planes)
     }
 
-    /// The view-dependent metric at the vertices, and the view factor of every face.
-    fn set_metric(&mut self, index: usize, base: PerFace<SymTensor2>) {
-        let garment = &self.scene.garments[index];
-        let windows: Vec<ViewerWindow> = match self.settings.sizing {
+    /// Whom a garment is to please at the current frame.
+    fn windows(&self, index: usize) -> Vec<ViewerWindow> {
+        match self.settings.sizing {
             SizingMode::View => {
-                let ahead = garment.view.anticipation_frames;
+                let ahead = self.scene.garments[index].view.anticipation_frames;
                 let window = |path| ViewerWindow::new(path, f64::from(self.frame), ahead);
                 self.scene.viewers.iter().map(window).collect()
             }
             SizingMode::Adaptive | SizingMode::Uniform { .. } => Vec::new(),
+        }
+    }
+
+    /// Takes what nobody sees for buckled, as it is now, over the frame that begins.
+    pub(super) fn compensate_buckling(&mut self) {
+        let of_garment = |index: usize| {
+            let settings = &self.scene.garments[index].view;
+            buckling_alphas(&self.garments[index], &self.windows(index), settings).into_vec()
         };
+        let alphas: Vec<f64> = (0..self.garments.len()).flat_map(of_garment).collect();
+        self.cloth.system.set_compensation(&alphas);
+    }
+
+    /// The view-dependent metric at the vertices, and the view factor of every face.
+    fn set_metric(&mut self, index: usize, base: PerFace<SymTensor2>) {
+        let garment = &self.scene.garments[index];
+        let windows = self.windows(index);
         let mesh = &mut self.garments[index];
         let field =
             view_field(mesh, &base, &windows, &garment.view, garment.two_sided, &garment.sizing);

@@ -153,7 +153,7 @@ fn cost(model: BendingModel) -> Result<Cost> {
     let mut change = right_side.to_vec();
     let solution_us = least_us(|| {
         solver.expect_new_matrix();
-        solver.solve(matrix, right_side, &mut change, Accuracy::Fine)?;
+        solver.solve(matrix, right_side, &mut change, Accuracy::FINE)?;
         Ok(())
     })?;
     let blocks_per_row = 2.0 * matrix.pattern().block_count() as f64 / nodes - 1.0;

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::Accuracy;
 use crate::dynamics::matrix::BlockMatrix;
 
 /// Vectors that are kept between solutions.
@@ -16,8 +17,7 @@ pub struct ConjugateGradients {
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
 pub struct Budget {
-    /// Residual over right side, both in the norm of the preconditioner.
-    pub tolerance: f64,
+    pub accuracy: Accuracy,
     pub iterations: usize,
 }
 
@@ -66,7 +66,8 @@ impl ConjugateGradients {
             buffer.resize(count, DVec3::ZERO);
         }
         precondition(b, &mut self.preconditioned);
-        let goal = budget.tolerance * budget.tolerance * dot(b, &self.preconditioned);
+        let Accuracy { tolerance, least } = budget.accuracy;
+        let goal = tolerance * tolerance * dot(b, &self.preconditioned).max(least);
         let mut squared = self.start(matrix, b, x, &mut precondition);
         for iterations in 0..=budget.iterations {
             if squared <= goal {

@@ -81,23 +81,25 @@ pub struct SolverCounts {
     pub iterations: usize,
 }
 
-/// How good a solution must be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Accuracy {
-    /// To see which contacts hold.
-    Rough,
-    /// To move the cloth. On a garment in motion velocities are then off by about 0.1 mm/s.
-    Fine,
+/// How good a solution must be: iterations end when the residual is `tolerance` of the right side,
+/// both in the norm of the preconditioner, which is about that of the energy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    pub tolerance: f64,
+    /// What the right side counts as at least, its norm squared (J): where it all but vanishes, a
+    /// share of it would be next to nothing.
+    pub least: f64,
 }
 
 impl Accuracy {
-    /// Iterations end when the residual, in the norm of the preconditioner, is this share of the
-    /// right side's.
-    fn tolerance(self) -> f64 {
-        match self {
-            Accuracy::Rough => 1e-3,
-            Accuracy::Fine => 1e-5,
-        }
+    /// To see which contacts hold.
+    pub const ROUGH: Self = Self { tolerance: 1e-3, least: 0.0 };
+    /// To move the cloth. On a garment in motion velocities are then off by about 0.1 mm/s.
+    pub const FINE: Self = Self { tolerance: 1e-5, least: 0.0 };
+
+    /// The same, with a right side of `energy` (J) at least.
+    pub fn of_at_least(self, energy: f64) -> Self {
+        Self { least: energy, ..self }
     }
 }
 
@@ -178,7 +180,7 @@ impl LinearSolver {
         if is_given_up || !self.direct.has_pattern_of(matrix) {
             return self.solve_directly(matrix, b, x);
         }
-        let budget = Budget { tolerance: accuracy.tolerance(), iterations: ITERATIONS_WITH_FACTOR };
+        let budget = Budget { accuracy, iterations: ITERATIONS_WITH_FACTOR };
         let direct = &mut self.direct;
         let apply = |r: &[DVec3], z: &mut [DVec3]| {
             z.copy_from_slice(r);
@@ -201,7 +203,7 @@ impl LinearSolver {
     ) -> Result<(), SolveError> {
         let growth = (b.len() as f64 / 5e3).sqrt().max(0.5);
         let iterations = (ITERATIONS_AT_5000 * growth) as usize;
-        let budget = Budget { tolerance: accuracy.tolerance(), iterations };
+        let budget = Budget { accuracy, iterations };
         let incomplete = &mut self.incomplete;
         let apply = |r: &[DVec3], z: &mut [DVec3]| incomplete.apply(r, z);
         let outcome = self.conjugate.solve(matrix, b, x, apply, budget);

@@ -57,12 +57,12 @@ fn every_way_leads_to_the_solution() {
         let b = matrix.product(&exact);
         let mut solver = LinearSolver::default();
         let mut x = vec![DVec3::ZERO; 400];
-        solver.solve(&matrix, &b, &mut x, Accuracy::Fine).unwrap();
+        solver.solve(&matrix, &b, &mut x, Accuracy::FINE).unwrap();
         let off = error(&matrix, &x, &exact);
-        assert!(off < 10.0 * Accuracy::Fine.tolerance(), "stiffness {stiffness}: off by {off}");
+        assert!(off < 10.0 * Accuracy::FINE.tolerance, "stiffness {stiffness}: off by {off}");
         assert_eq!(solver.counts().factorisations, factorisations, "stiffness {stiffness}");
         solver.set_choice(SolverChoice::Direct);
-        solver.solve(&matrix, &b, &mut x, Accuracy::Fine).unwrap();
+        solver.solve(&matrix, &b, &mut x, Accuracy::FINE).unwrap();
         assert!(error(&matrix, &x, &exact) < 1e-9);
     }
 }
@@ -75,13 +75,13 @@ fn a_good_guess_saves_iterations() {
     let b = matrix.product(&exact);
     let mut solver = LinearSolver::default();
     let mut x = vec![DVec3::ZERO; 400];
-    solver.solve(&matrix, &b, &mut x, Accuracy::Fine).unwrap();
+    solver.solve(&matrix, &b, &mut x, Accuracy::FINE).unwrap();
     let cold = solver.counts().iterations;
     x = exact.iter().map(|v| *v * 1.001).collect();
-    solver.solve(&matrix, &b, &mut x, Accuracy::Fine).unwrap();
+    solver.solve(&matrix, &b, &mut x, Accuracy::FINE).unwrap();
     let warm = solver.counts().iterations - cold;
     assert!(warm < cold * 3 / 4, "{warm} iterations after {cold}");
-    solver.solve(&matrix, &b, &mut x, Accuracy::Fine).unwrap();
+    solver.solve(&matrix, &b, &mut x, Accuracy::FINE).unwrap();
     assert_eq!(solver.counts().iterations, cold + warm, "a solution needs none");
 }
 
@@ -99,8 +99,8 @@ fn a_factor_of_a_similar_matrix_is_used_again_and_one_of_another_is_not() {
         let b = matrix.product(&exact);
         let mut x = vec![DVec3::ZERO; 400];
         solver.expect_new_matrix();
-        solver.solve(matrix, &b, &mut x, Accuracy::Fine).unwrap();
-        assert!(error(matrix, &x, &exact) < 10.0 * Accuracy::Fine.tolerance());
+        solver.solve(matrix, &b, &mut x, Accuracy::FINE).unwrap();
+        assert!(error(matrix, &x, &exact) < 10.0 * Accuracy::FINE.tolerance);
         assert_eq!(solver.counts().factorisations, factorisations);
     }
 }
@@ -117,7 +117,7 @@ fn a_matrix_is_factorised_once_however_often_it_is_solved_directly() {
     };
     let solution = |solver: &mut LinearSolver, matrix: &BlockMatrix, b: &[DVec3]| {
         let mut x = vec![DVec3::ZERO; 144];
-        solver.solve(matrix, b, &mut x, Accuracy::Fine).unwrap();
+        solver.solve(matrix, b, &mut x, Accuracy::FINE).unwrap();
         x
     };
     let mut solver = direct();
@@ -141,7 +141,7 @@ fn after_a_failure_a_matrix_is_factorised_again() {
     let mut solver = LinearSolver::default();
     solver.set_choice(SolverChoice::Direct);
     let mut solve = |matrix: &BlockMatrix| {
-        solver.solve(matrix, &b, &mut vec![DVec3::ZERO; 36], Accuracy::Fine).is_ok()
+        solver.solve(matrix, &b, &mut vec![DVec3::ZERO; 36], Accuracy::FINE).is_ok()
     };
     let slot = matrix.pattern().diagonal_slot(5);
     matrix.add(slot, DMat3::IDENTITY * -100.0);
@@ -159,7 +159,7 @@ fn a_factor_of_another_pattern_is_not_used() {
         let exact = vector((side * side) as usize, &mut random);
         let mut x = vec![DVec3::ZERO; exact.len()];
         solver.expect_new_matrix();
-        solver.solve(&matrix, &matrix.product(&exact), &mut x, Accuracy::Fine).unwrap();
+        solver.solve(&matrix, &matrix.product(&exact), &mut x, Accuracy::FINE).unwrap();
         assert!(error(&matrix, &x, &exact) < 1e-9);
         assert_eq!(solver.counts().factorisations, count + 1);
     }
@@ -173,7 +173,7 @@ fn after_forgetting_a_solution_has_the_bits_of_a_new_solver() {
     let b = vector(144, &mut random);
     let solution = |solver: &mut LinearSolver, matrix: &BlockMatrix| {
         let mut x = vec![DVec3::ZERO; 144];
-        solver.solve(matrix, &b, &mut x, Accuracy::Fine).unwrap();
+        solver.solve(matrix, &b, &mut x, Accuracy::FINE).unwrap();
         x
     };
     let mut used = LinearSolver::default();
@@ -194,7 +194,7 @@ fn an_indefinite_matrix_is_an_error_whichever_way() {
         solver.set_choice(choice);
         let b = vector(36, &mut random);
         let error =
-            solver.solve(&matrix, &b, &mut vec![DVec3::ZERO; 36], Accuracy::Fine).unwrap_err();
+            solver.solve(&matrix, &b, &mut vec![DVec3::ZERO; 36], Accuracy::FINE).unwrap_err();
         assert!(matches!(error, SolveError::NotPositiveDefinite { .. }), "{error}");
     }
 }

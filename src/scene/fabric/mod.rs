@@ -55,6 +55,14 @@ impl Fabric {
         }
     }
 
+    /// Least and largest principal stretch the garment may show.
+    pub fn strain_limits(&self) -> Option<[f64; 2]> {
+        match self {
+            Fabric::Measured(fabric) => fabric.strain_limits,
+            Fabric::Elastic(fabric) => fabric.strain_limits,
+        }
+    }
+
     /// The stretch stiffness at a deformation gradient.
     pub fn stretch_stiffness(&self, deformation: Mat3x2) -> StretchStiffness {
         match self {

@@ -41,7 +41,8 @@ pub struct FabricFile {
     pub thicken: f64,
     /// Damping proportional to stiffness (s). Default 0.
     pub damping: f64,
-    /// Least and largest stretch ratio, for example [0.95, 1.05]. Default none. Not enforced yet.
+    /// Least and largest stretch ratio, for example [0.95, 1.05]. Default none. Cloth
+    /// beyond them is stiff, and its steps are iterated.
     pub strain_limits: Option<[f64; 2]>,
 }
 

@@ -39,12 +39,6 @@ impl Resolver<'_> {
         let path = format!("fabrics.{name}");
         self.check_factors(&path, &file)?;
         self.check_one_source(&path, &file)?;
-        if file.strain_limits.is_some() {
-            let warning = format!("{path}.strain_limits are kept but not enforced yet");
-            if !self.warnings.contains(&warning) {
-                self.warnings.push(warning);
-            }
-        }
         let density = file.density_mult * file.thicken;
         let stretching = file.stretching_mult * file.thicken;
         let bending = file.bending_mult * file.thicken;
