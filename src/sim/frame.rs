@@ -129,6 +129,11 @@ pub struct StageCounts {
 }
 
 impl StageCounts {
+    /// Changes of the mesh.
+    pub fn edits(&self) -> u64 {
+        self.splits + self.collapses + self.flips
+    }
+
     /// Names as in `stats.csv`, and values in that order.
     pub fn entries(&self) -> [(&'static str, u64); 11] {
         // Exhaustive, so that a new count cannot be forgotten here.

@@ -20,6 +20,7 @@ mod incline;
 mod momentum;
 mod order;
 mod patch;
+mod popping;
 mod remesh_only;
 mod roll_up;
 pub mod sheet;
@@ -52,6 +53,7 @@ pub fn experiments() -> Vec<Experiment> {
         first_mode::experiments(),
         order::experiments(),
         remesh_only::experiments(),
+        popping::experiments(),
     ]
     .into_iter()
     .flatten()

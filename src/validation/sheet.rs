@@ -70,15 +70,19 @@ impl Sheet {
     /// # Panics
     /// If the sheet is no mesh: it has no area, or columns outside.
     pub fn mesh(&self, place: impl Fn(DVec2) -> DVec3) -> Mesh {
+        Mesh::from_raw(&self.raw(place), &[]).expect("a sheet is a mesh")
+    }
+
+    /// The sheet before its connectivity is built, so that nodes can be pinned.
+    pub fn raw(&self, place: impl Fn(DVec2) -> DVec3) -> RawMesh {
         let points = self.points();
         let generic: Vec<DVec2> = points.iter().map(|&u| self.in_general_position(u)).collect();
-        let raw = RawMesh {
+        RawMesh {
             positions: points.iter().map(|&u| place(u)).collect(),
             vertices: (0..).zip(points).collect(),
             faces: delaunay(&generic),
             ..RawMesh::default()
-        };
-        Mesh::from_raw(&raw, &[]).expect("a sheet is a mesh")
+        }
     }
 
     fn points(&self) -> Vec<DVec2> {
