@@ -55,12 +55,14 @@ fn draw(
 ) -> Result<(), Box<dyn Error>> {
     let last = curves.iter().map(|c| c.crossings.len()).max().unwrap_or(0).max(2) - 1;
     let most = curves.iter().flat_map(|c| &c.crossings).max().copied().unwrap_or(0).max(1);
+    // Above the curves there is room for the legend.
+    let top = most + most / 2;
     let mut chart = ChartBuilder::on(area)
         .margin(12)
         .caption(tangle, ("sans-serif", 14, &INK))
         .x_label_area_size(34)
         .y_label_area_size(54)
-        .build_cartesian_2d(0..last, 0..most + most / 10)?;
+        .build_cartesian_2d(0..last, 0..top)?;
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)

@@ -161,6 +161,7 @@ fn stopped(patch: &Patch, obstacle: &ObstacleMotion, rounds: [usize; 2]) -> (Vec
         velocity: &mut velocity,
         position_at_start: &patch.start,
         area: &vec![1e-4; nodes],
+        thickness: &vec![SETTINGS.thickness; nodes],
         mass: &vec![1e-5; nodes],
         faces: &patch.faces,
     };

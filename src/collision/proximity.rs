@@ -21,6 +21,9 @@ pub struct Cloth<'a> {
     pub velocity: &'a [DVec3],
     /// Material area of each node (m^2).
     pub area: &'a [f64],
+    /// Distance at which each node is held off (m): its fabric's, at most that of the scene's
+    /// contact. All nodes of a face have the same.
+    pub thickness: &'a [f64],
     /// Nodes of each face.
     pub faces: &'a [[u32; 3]],
 }
@@ -81,7 +84,7 @@ fn node_contact(
     let contact = ContactPoint {
         nodes: ContactPoint::weighted(&[(node, 1.0)]),
         normal: nearest.normal,
-        gap: nearest.signed_distance - settings.thickness,
+        gap: nearest.signed_distance - cloth.thickness[node],
         surface_velocity: obstacle.surface_velocity(nearest.triangle, nearest.barycentric),
         stiffness: settings.stiffness * cloth.area[node],
         friction: settings.friction_obstacle,
@@ -144,7 +147,7 @@ fn corner_contact(
     let contact = ContactPoint {
         nodes: ContactPoint::weighted(&[0, 1, 2].map(|k| (touch.nodes[k], touch.weights[k]))),
         normal: touch.normal,
-        gap: touch.signed_distance - settings.thickness,
+        gap: touch.signed_distance - cloth.thickness[touch.nodes[0]],
         surface_velocity,
         stiffness: settings.stiffness
             * obstacle.shape_at_start().vertex_areas()[corner.index]

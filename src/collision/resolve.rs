@@ -38,6 +38,8 @@ pub struct MovedCloth<'a> {
     /// Where each node was at the start of the step (m).
     pub position_at_start: &'a [DVec3],
     pub area: &'a [f64],
+    /// As in [`Cloth`] (m).
+    pub thickness: &'a [f64],
     /// (kg).
     pub mass: &'a [f64],
     pub faces: &'a [[u32; 3]],
@@ -262,6 +264,7 @@ impl MovedCloth<'_> {
             position: self.position,
             velocity: self.velocity,
             area: self.area,
+            thickness: self.thickness,
             faces: self.faces,
         }
     }

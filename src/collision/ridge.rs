@@ -126,7 +126,7 @@ fn ridge_contact(
     let contact = ContactPoint {
         nodes: ContactPoint::weighted(&weights),
         normal,
-        gap: signed_distance - settings.thickness,
+        gap: signed_distance - cloth.thickness[nodes[0]],
         surface_velocity: ridge.velocities[0].lerp(ridge.velocities[1], pair.second),
         stiffness: settings.stiffness * weighted(nodes.map(|n| cloth.area[n])),
         friction: settings.friction_obstacle,

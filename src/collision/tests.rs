@@ -79,11 +79,28 @@ fn contacts_of(
     velocity: DVec3,
     obstacles: &[ObstacleMotion],
 ) -> Vec<crate::dynamics::ContactPoint> {
+    contacts_at(SETTINGS.thickness, positions, velocity, obstacles)
+}
+
+/// Those of a fabric with a thickness of its own (m).
+fn contacts_at(
+    thickness: f64,
+    positions: &[DVec3],
+    velocity: DVec3,
+    obstacles: &[ObstacleMotion],
+) -> Vec<crate::dynamics::ContactPoint> {
     let faces = vec![[0, 1, 2]];
     let velocities = vec![velocity; positions.len()];
     let area = vec![1.0; positions.len()];
     let tree = FaceTree::new(positions, &faces);
-    let cloth = Cloth { position: positions, velocity: &velocities, area: &area, faces: &faces };
+    let thickness = vec![thickness; positions.len()];
+    let cloth = Cloth {
+        position: positions,
+        velocity: &velocities,
+        area: &area,
+        thickness: &thickness,
+        faces: &faces,
+    };
     let mut memory = NearMemory::new(positions.len(), obstacles.len());
     contacts(cloth, &tree, obstacles, &mut memory, &SETTINGS)
 }
@@ -106,6 +123,7 @@ fn resolved(
         velocity,
         position_at_start,
         area: &area,
+        thickness: &[settings.thickness; 3],
         mass: &area,
         faces: &faces,
     };
@@ -123,6 +141,14 @@ fn corners_of_an_obstacle_hold_a_face_that_has_no_node_near() {
         let weights: f64 = contact.nodes.iter().map(|(_, w)| w).sum();
         assert!((weights - 1.0).abs() < 1e-12);
     }
+}
+
+#[test]
+fn a_thin_fabric_may_come_nearer_to_an_obstacle() {
+    let positions = sheet(1.005);
+    assert_eq!(contacts_at(0.004, &positions, DVec3::ZERO, &still()), []);
+    let found = contacts_at(0.006, &positions, DVec3::ZERO, &still());
+    assert!(found.len() == 4 && found.iter().all(|c| (c.gap + 0.001).abs() < 1e-12));
 }
 
 #[test]

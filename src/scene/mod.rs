@@ -84,6 +84,9 @@ pub struct Garment {
     /// As it is at frame 0, in the world.
     pub mesh: Mesh,
     pub fabric: Fabric,
+    /// Distance at which the cloth is held off obstacles; off other cloth it is the mean of both (m).
+    /// `None`: that of the scene's [`Contact`]; else at most that, and at least a fifth of it.
+    pub contact_thickness: Option<f64>,
     pub sizing: SizingSettings,
     pub view: ViewSettings,
     /// Both sides are meant to be seen, so that `nu_back` applies to no face in frame.

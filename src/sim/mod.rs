@@ -36,7 +36,7 @@ use crate::collision::{
 };
 use crate::dynamics::{StepState, System};
 use crate::mesh::{FaceId, IdVec, Mesh};
-use crate::scene::{Fabric, Pose, Scene};
+use crate::scene::{Fabric, Garment, Pose, Scene};
 use clock::{Stage, StageClock};
 use handles::{Anchors, HeldNodes};
 use step::Regime;
@@ -62,6 +62,8 @@ struct MovingCloth {
     state: StepState,
     /// Material area of each node (m^2).
     area: Vec<f64>,
+    /// How far each node is held off (m).
+    thickness: Vec<f64>,
     faces: Vec<[u32; 3]>,
     tree: FaceTree,
     near: NearMemory,
@@ -232,6 +234,7 @@ impl MovingCloth {
             system,
             tree,
             own,
+            thickness: thickness_of_nodes(scene, garments),
             area: meshes.iter().flat_map(|m| m.node_areas().into_vec()).collect(),
             near: NearMemory::new(state.position.len(), scene.obstacles.len()),
             held: HeldNodes::new(scene, garments),
@@ -268,6 +271,15 @@ impl MovingCloth {
     fn write_back(&self, garments: &mut [Mesh]) {
         self.state.scatter(&mut garments.iter_mut().collect::<Vec<_>>());
     }
+}
+
+/// Each node's contact thickness (m).
+fn thickness_of_nodes(scene: &Scene, garments: &[Mesh]) -> Vec<f64> {
+    let of = |(garment, mesh): (&Garment, &Mesh)| {
+        let own = garment.contact_thickness.unwrap_or(scene.contact.thickness);
+        std::iter::repeat_n(own, mesh.node_count())
+    };
+    scene.garments.iter().zip(garments).flat_map(of).collect()
 }
 
 /// Nodes of every face in the numbering over all garments.

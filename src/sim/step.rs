@@ -134,6 +134,7 @@ impl Simulation {
             position: &cloth.state.position,
             velocity: &cloth.state.velocity,
             area: &cloth.area,
+            thickness: &cloth.thickness,
             faces: &cloth.faces,
         };
         if let Some(own) = &mut cloth.own {
@@ -191,6 +192,7 @@ impl MovingCloth {
             velocity: &mut self.state.velocity,
             position_at_start,
             area: &self.area,
+            thickness: &self.thickness,
             mass: self.system.masses(),
             faces: &self.faces,
         };
@@ -204,6 +206,7 @@ impl MovingCloth {
             velocity: &mut self.state.velocity,
             position_at_start,
             area: &self.area,
+            thickness: &self.thickness,
             mass: self.system.masses(),
             faces: &self.faces,
         }

@@ -78,6 +78,7 @@ pub(super) fn scene(mesh: Mesh) -> Scene {
             sizing: SizingSettings { edge_length_min: 0.03, ..SizingSettings::default() },
             view: ViewSettings::default(),
             two_sided: true,
+            contact_thickness: None,
         }],
         obstacles: Vec::new(),
         motions: Vec::new(),

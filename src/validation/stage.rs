@@ -71,6 +71,7 @@ pub fn garment(mesh: Mesh, fabric: Fabric) -> Garment {
         sizing: SizingSettings::default(),
         view: ViewSettings::default(),
         two_sided: true,
+        contact_thickness: None,
     }
 }
 

@@ -61,7 +61,7 @@ fn contact(
     if !is_own(cloth, topology, layers, pair, near.weights, offset) {
         return None;
     }
-    let thickness = layers.thickness(pair, nodes, near.weights, settings.thickness);
+    let thickness = layers.thickness(pair, nodes, near.weights, thickness_between(cloth, nodes));
     let contact = ContactPoint {
         nodes: [0, 1, 2, 3].map(|k| (nodes[k], near.weights[k])),
         normal: offset / near.distance,
@@ -71,6 +71,12 @@ fn contact(
         friction: settings.friction_cloth,
     };
     is_active(&contact, velocity, duration).then_some(contact)
+}
+
+/// How far two pieces of cloth are held apart (m): half of each one's thickness. The first of the
+/// nodes belongs to one, the last to the other; all of a fabric have the same.
+fn thickness_between(cloth: Cloth<'_>, nodes: [usize; 4]) -> f64 {
+    0.5 * (cloth.thickness[nodes[0]] + cloth.thickness[nodes[3]])
 }
 
 /// Whether the nearest points are this pair's own, and nothing beside them is nearer. Where an edge's

@@ -47,6 +47,7 @@ struct Scene {
     position: Vec<DVec3>,
     velocity: Vec<DVec3>,
     area: Vec<f64>,
+    thickness: Vec<f64>,
     faces: Vec<[u32; 3]>,
     tree: FaceTree,
     own: ClothContact,
@@ -66,7 +67,9 @@ impl Scene {
         }
         let tree = FaceTree::new(&position, &faces);
         let own = ClothContact::new(meshes, &tree, &position);
-        Self { velocity: vec![DVec3::ZERO; position.len()], position, area, faces, tree, own }
+        let velocity = vec![DVec3::ZERO; position.len()];
+        let thickness = vec![SETTINGS.thickness; position.len()];
+        Self { velocity, position, area, thickness, faces, tree, own }
     }
 
     fn contacts(&mut self) -> Vec<ContactPoint> {
@@ -74,6 +77,7 @@ impl Scene {
             position: &self.position,
             velocity: &self.velocity,
             area: &self.area,
+            thickness: &self.thickness,
             faces: &self.faces,
         };
         self.own.expect_motion(seen, &self.tree, &SETTINGS, DT);
@@ -90,6 +94,7 @@ impl Scene {
             velocity: &mut self.velocity,
             position_at_start: &start,
             area: &self.area,
+            thickness: &self.thickness,
             mass: &self.area,
             faces: &self.faces,
         };
@@ -302,6 +307,18 @@ fn layers_of_two_garments_are_held_apart_by_the_whole_thickness() {
     let nodes: BTreeSet<usize> =
         contacts.iter().flat_map(|c| c.weights().map(|(n, _)| n)).collect();
     assert_eq!(nodes.len(), 36 + 64);
+}
+
+#[test]
+fn garments_are_held_apart_by_the_mean_of_their_thicknesses() {
+    let mut scene =
+        Scene::new(&[sheet(5, |u| u.extend(0.0)), sheet(7, |u| (0.9 * u + 0.03).extend(0.004))]);
+    scene.thickness[..36].fill(0.5 * SETTINGS.thickness);
+    let contacts = scene.contacts();
+    assert!(contacts.len() > 50);
+    for contact in contacts {
+        assert!((contact.gap + 0.0035).abs() < 1e-9, "{contact:?}");
+    }
 }
 
 #[test]

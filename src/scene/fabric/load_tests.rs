@@ -96,6 +96,34 @@ fn only_a_solid_that_is_alike_in_all_directions_keeps_its_volume() {
 }
 
 #[test]
+fn a_fabric_has_its_own_contact_thickness_or_the_scenes() {
+    let scene = |fabric: &str| load_fabric(fabric).unwrap().scene;
+    let thick = scene(r#"{"preset": "denim", "contact_thickness": 0.008}"#);
+    assert_eq!((thick.garments[0].contact_thickness, thick.contact.thickness), (Some(8e-3), 8e-3));
+    let plain = scene(r#"{"preset": "denim"}"#);
+    assert_eq!((plain.garments[0].contact_thickness, plain.contact.thickness), (Some(5e-3), 5e-3));
+    let record = load_fabric(r#"{"preset": "silk", "contact_thickness": 0.002}"#).unwrap().resolved;
+    assert_eq!(record["fabrics"]["f"]["contact_thickness"], 0.002);
+    let error = load_fabric(r#"{"preset": "silk", "contact_thickness": 0}"#).unwrap_err();
+    assert!(error.to_string().contains("f.contact_thickness is 0, but must be"), "{error}");
+}
+
+#[test]
+fn contact_thicknesses_differ_by_five_times_at_most() {
+    let shot = r#"{"shotsilk": 1, "fabrics": {
+        "thin": {"preset": "silk", "contact_thickness": 0.001}, "thick": {"preset": "wool", "contact_thickness": 0.006}},
+        "garments": [{"mesh": "a.obj", "fabric": "thin"}, {"mesh": "a.obj", "fabric": "thick"}]}"#;
+    let source =
+        EmbeddedFiles::default().with("a.obj", SHEET.as_bytes()).with("a.json", shot.as_bytes());
+    let options = LoadOptions { shot: Path::new("a.json").into(), ..LoadOptions::default() };
+    let error = load(&options, &source).unwrap_err().to_string();
+    assert!(
+        error.contains("fabrics.thin.contact_thickness is 0.001, but must be at least 0.0012"),
+        "{error}"
+    );
+}
+
+#[test]
 fn the_record_of_an_elastic_fabric_means_the_same() {
     let fabric = r#"{"elastic": {"density": 0.2, "membrane_stiffness": [400, 100],
         "bending_rigidity": 4e-6}, "thicken": 2, "damping": 0.01}"#;

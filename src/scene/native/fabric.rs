@@ -44,6 +44,10 @@ pub struct FabricFile {
     /// Least and largest stretch ratio, for example [0.95, 1.05]. Default none. Cloth
     /// beyond them is stiff, and its steps are iterated.
     pub strain_limits: Option<[f64; 2]>,
+    /// Distance at which cloth of this fabric is held off obstacles (m); off other cloth it is the mean
+    /// of both fabrics'. Default `contact.thickness`. The thickest is at most five times the thinnest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_thickness: Option<f64>,
 }
 
 impl Default for FabricFile {
@@ -62,6 +66,7 @@ impl Default for FabricFile {
             thicken: 1.0,
             damping: 0.0,
             strain_limits: None,
+            contact_thickness: None,
         }
     }
 }

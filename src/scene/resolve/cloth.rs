@@ -48,7 +48,8 @@ impl Resolver<'_> {
             Problem::Mesh { thing: format!("garment {name:?}"), error }.at(place)
         })?;
         let two_sided = file.two_sided.unwrap_or_else(|| !obj.has_seams());
-        Ok(Garment { name, mesh, fabric, sizing, view, two_sided })
+        let contact_thickness = Some(self.contact_thickness(&file.fabric));
+        Ok(Garment { name, mesh, fabric, contact_thickness, sizing, view, two_sided })
     }
 
     fn check_sizing(&self, path: &str, sizing: &SizingSettings) -> Result<(), LoadError> {

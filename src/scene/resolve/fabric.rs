@@ -22,6 +22,10 @@ struct Tables {
 
 const TABLE_NAMES: [&str; 3] = ["density", "stretching", "bending"];
 
+/// Thickest over thinnest contact of a scene: what is led out of an obstacle is led out to a tenth
+/// of the thickest, which must be well within the thinnest.
+const THICKNESS_RATIO_MAX: f64 = 5.0;
+
 /// That of most solids that are neither rubber nor cork.
 const POISSON_RATIO: f64 = 0.3;
 
@@ -79,6 +83,33 @@ impl Resolver<'_> {
         Ok(Some(preset.fabric()))
     }
 
+    /// Of a fabric by its name (m).
+    pub(super) fn contact_thickness(&self, name: &str) -> f64 {
+        let own = self.file.fabrics.get(name).and_then(|fabric| fabric.contact_thickness);
+        own.unwrap_or(self.file.contact.thickness)
+    }
+
+    /// The thickest contact of all garments' (m): how far contact is looked for.
+    ///
+    /// # Errors
+    /// If a garment's is less than a fifth of it: the thin one would lie within what is left to
+    /// rounding of the thick one.
+    pub(super) fn thickest_contact(&self) -> Result<f64, LoadError> {
+        let names = || self.file.garments.iter().map(|garment| &garment.fabric);
+        let of_all = names().map(|name| self.contact_thickness(name));
+        let thickest = of_all.reduce(f64::max).unwrap_or(self.file.contact.thickness);
+        let least = thickest / THICKNESS_RATIO_MAX;
+        for name in names() {
+            let own = self.contact_thickness(name);
+            if own < least {
+                let path = format!("fabrics.{name}.contact_thickness");
+                let limit = format!("at least {least}, a fifth of the thickest");
+                return Err(self.out_of_range(&path, own, &limit));
+            }
+        }
+        Ok(thickest)
+    }
+
     fn check_factors(&self, path: &str, file: &FabricFile) -> Result<(), LoadError> {
         for (name, value, limit) in [
             ("density_mult", file.density_mult, Limit::Positive),
@@ -88,6 +119,9 @@ impl Resolver<'_> {
             ("damping", file.damping, Limit::AtLeastZero),
         ] {
             self.check(&format!("{path}.{name}"), value, limit)?;
+        }
+        if let Some(thickness) = file.contact_thickness {
+            self.check(&format!("{path}.contact_thickness"), thickness, Limit::Positive)?;
         }
         if let Some([least, largest]) = file.strain_limits {
             self.check(&format!("{path}.strain_limits.0"), least, Limit::Share)?;

@@ -18,7 +18,7 @@ use super::document::Node;
 use super::error::{LoadError, Problem};
 use super::native::{SHOT_VERSION, ShotFile, ViewFile, stages};
 use super::source::{Reader, joined};
-use super::{Handle, Pose, Scene, Surface, ViewSettings};
+use super::{Contact, Handle, Pose, Scene, Surface, ViewSettings};
 use limit::{Limit, check, out_of_range};
 
 pub(super) use camera::CameraRequest;
@@ -92,7 +92,7 @@ impl<'a> Resolver<'a> {
             first_frame: self.file.first_frame,
             gravity: DVec3::from_array(self.file.gravity),
             air: self.file.air.air(),
-            contact: self.file.contact.contact(),
+            contact: Contact { thickness: self.thickest_contact()?, ..self.file.contact.contact() },
             dynamics: self.file.dynamics.dynamics(),
             handle_stiffness: self.file.handle_stiffness,
             start_perturbation: self.file.start_perturbation,

@@ -14,6 +14,9 @@ pub(super) fn settings(file: ShotFile, scene: &Scene, cameras: Vec<CameraFile>) 
     record["viewers"] = json!(cameras);
     for (name, garment) in file.garments.iter().zip(&scene.garments).map(|(f, g)| (&f.fabric, g)) {
         record["fabrics"][name] = fabric(&garment.fabric);
+        if let Some(own) = file.fabrics.get(name).and_then(|f| f.contact_thickness) {
+            record["fabrics"][name]["contact_thickness"] = json!(own);
+        }
     }
     for (index, garment) in scene.garments.iter().enumerate() {
         let written = &mut record["garments"][index];
