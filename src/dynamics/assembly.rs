@@ -100,20 +100,7 @@ impl System {
             let viscosity = Viscosity::new(garment.fabric.damping(), dt);
             for index in garment.membranes.clone() {
                 let face = &self.membranes[index];
-                let deformation = face.gradient_of(&iterate.position);
-                let k = self.frozen.stretch[index];
-                let mut tangent = match self.root_alpha(index) {
-                    Some(root) => MembraneTangent::compensated(face.area, k, deformation, root),
-                    None => MembraneTangent::new(face.area, k, deformation),
-                };
-                if let Some(bounds) = &garment.strain_bounds {
-                    let strain = green_strain(deformation);
-                    let gain = expected.map(|v| strain_rate(deformation, face.gradient_of(v)) * dt);
-                    let ahead = gain.map_or(strain, |gain| strain + gain);
-                    if bounds.may_be_felt(ahead) {
-                        tangent = tangent.and(&bounds.derivatives(strain, ahead));
-                    }
-                }
+                let mut tangent = self.elastic_tangent(garment, index, iterate, expected, dt);
                 if viscosity.is_felt() {
                     tangent = tangent.damped(viscosity, face.strain(&start.position));
                 }
@@ -128,6 +115,32 @@ impl System {
                     }
                 }
             }
+        }
+    }
+
+    /// The tangent of a face's elastic energy at an iterate, with compensation and limits: the
+    /// derivatives of [`elastic_density`](System::elastic_density).
+    fn elastic_tangent(
+        &self,
+        garment: &GarmentRanges,
+        membrane: usize,
+        iterate: &Iterate,
+        expected: Option<&[DVec3]>,
+        dt: f64,
+    ) -> MembraneTangent {
+        let (face, k) = (&self.membranes[membrane], self.frozen.stretch[membrane]);
+        let deformation = face.gradient_of(&iterate.position);
+        let tangent = match self.root_alpha(membrane) {
+            Some(root) => MembraneTangent::compensated(face.area, k, deformation, root),
+            None => MembraneTangent::new(face.area, k, deformation),
+        };
+        let Some(bounds) = &garment.strain_bounds else { return tangent };
+        let strain = green_strain(deformation);
+        let gain = expected.map(|v| strain_rate(deformation, face.gradient_of(v)) * dt);
+        let ahead = gain.map_or(strain, |gain| strain + gain);
+        match bounds.may_be_felt(ahead) {
+            true => tangent.and(&bounds.derivatives(strain, ahead)),
+            false => tangent,
         }
     }
 

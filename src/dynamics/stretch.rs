@@ -24,11 +24,6 @@ impl Membrane {
         Mat3x2::from_gradients(self.nodes.map(|n| values[n as usize]), self.gradients)
     }
 
-    /// A psi(E) (J).
-    pub fn energy(&self, stiffness: StretchStiffness, positions: &[DVec3]) -> f64 {
-        self.area * energy_density(stiffness, self.strain(positions))
-    }
-
     /// E at positions.
     pub fn strain(&self, positions: &[DVec3]) -> SymTensor2 {
         green_strain(self.gradient_of(positions))
@@ -251,7 +246,7 @@ mod tests {
                     let energy = |step: f64| {
                         let mut moved = x;
                         moved[2 - k] += axis * step;
-                        membrane().energy(STIFFNESS, &moved)
+                        membrane().area * energy_density(STIFFNESS, membrane().strain(&moved))
                     };
                     let difference = (energy(1e-6) - energy(-1e-6)) / 2e-6;
                     let scale = 1.0 + force.length();

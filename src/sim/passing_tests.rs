@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::tests::{run, scene};
+use super::tests::{run, scene, square};
 use super::*;
 use crate::collision::Shape;
-use crate::mesh::RawMesh;
 use crate::scene::{
     Deformation, Handle, Motion, MotionKey, Obstacle, PointKey, PoseVelocity, Surface,
 };
+use crate::validation::stage::{ball, block};
 
 const STEP: f64 = 0.01;
 /// Contact thickness is 5 mm.
@@ -20,54 +20,11 @@ const CELLS: u32 = 9;
 
 /// A square sheet of 1 m around the origin, placed by a function of the material position.
 fn sheet(place: impl Fn(DVec2) -> DVec3) -> Mesh {
-    let rows = CELLS + 1;
-    let mut raw = RawMesh::default();
-    for node in 0..rows * rows {
-        let u = DVec2::new(f64::from(node % rows), f64::from(node / rows)) / f64::from(CELLS);
-        raw.vertices.push((node, u));
-        raw.positions.push(place(u - 0.5));
-    }
-    for cell in 0..CELLS * CELLS {
-        let [a, b] = [0, 1].map(|k| cell / CELLS * rows + cell % CELLS + k);
-        raw.faces.extend([[a, b, b + rows], [a, b + rows, a + rows]]);
-    }
-    Mesh::from_raw(&raw, &[]).unwrap()
+    square(CELLS, |u| place(u - 0.5))
 }
 
 fn flat() -> Mesh {
     sheet(|u| u.extend(0.0))
-}
-
-/// A box with these half sides around the origin.
-fn cuboid(half: DVec3) -> Surface {
-    let corner = |i: u32| {
-        let axis = |bit: u32| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
-        DVec3::new(axis(0), axis(1), axis(2)) * half
-    };
-    let quads: [[u32; 4]; 6] =
-        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-    Surface {
-        positions: (0..8).map(corner).collect(),
-        triangles: quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).collect(),
-    }
-}
-
-/// A ball: each face of a cube in cells, blown up.
-fn ball(radius: f64) -> Surface {
-    let mut surface = cuboid(DVec3::splat(1.0));
-    for _ in 0..3 {
-        let mut finer = Surface::default();
-        for [a, b, c] in surface.triangles.iter().map(|t| t.map(|v| surface.positions[v as usize]))
-        {
-            let first = finer.positions.len() as u32;
-            finer.positions.extend([a, b, c, a.midpoint(b), b.midpoint(c), c.midpoint(a)]);
-            let new = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]];
-            finer.triangles.extend(new.map(|t: [u32; 3]| t.map(|v| first + v)));
-        }
-        surface = finer.welded();
-    }
-    surface.positions.iter_mut().for_each(|p| *p = p.normalize() * radius);
-    surface
 }
 
 fn key(time: f64, translation: DVec3, angle: f64, velocity: PoseVelocity) -> MotionKey {
@@ -193,21 +150,21 @@ fn assert_carried(frames: &[Frame]) {
 
 #[test]
 fn a_thin_plate_does_not_pass_through_a_sheet() {
-    let plate = || cuboid(DVec3::new(0.3, 0.2, 1e-4));
+    let plate = || block(DVec3::new(0.3, 0.2, 1e-4));
     assert_carried(&assert_nothing_passes(&upwards(flat(), plate())));
     assert_nothing_passes(&pinned(upwards(flat(), plate())));
 }
 
 #[test]
 fn a_rod_as_thin_as_a_needle_does_not_pass_through_a_sheet() {
-    let rod = || cuboid(DVec3::new(0.9, 5e-4, 5e-4));
+    let rod = || block(DVec3::new(0.9, 5e-4, 5e-4));
     assert_carried(&assert_nothing_passes(&upwards(flat(), rod())));
     assert_nothing_passes(&pinned(upwards(flat(), rod())));
 }
 
 #[test]
 fn a_needle_does_not_pierce_a_sheet() {
-    let needle = || cuboid(DVec3::new(5e-4, 5e-4, 0.1));
+    let needle = || block(DVec3::new(5e-4, 5e-4, 0.1));
     assert_nothing_passes(&upwards(flat(), needle()));
     assert_nothing_passes(&pinned(upwards(flat(), needle())));
 }
@@ -220,7 +177,7 @@ fn a_ball_does_not_pass_through_a_sheet() {
 
 #[test]
 fn a_box_does_not_pass_through_a_sheet() {
-    let cube = || cuboid(DVec3::splat(0.1));
+    let cube = || block(DVec3::splat(0.1));
     assert_carried(&assert_nothing_passes(&upwards(flat(), cube())));
     assert_nothing_passes(&pinned(upwards(flat(), cube())));
 }
@@ -261,7 +218,7 @@ fn a_spinning_blade_does_not_cut_a_sheet() {
         key(time, DVec3::ZERO, spin * time, velocity)
     });
     let mesh = sheet(|u| DVec3::new(u.x, 0.2 + 0.1 * u.x, u.y));
-    let blade = cuboid(DVec3::new(0.6, 1e-3, 0.2));
+    let blade = block(DVec3::new(0.6, 1e-3, 0.2));
     checked_run(&against(mesh, blade, keys.collect()), 25);
 }
 

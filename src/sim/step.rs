@@ -6,7 +6,10 @@ use thiserror::Error;
 use super::clock::{Stage, StageClock};
 use super::frame::FrameReport;
 use super::{MovingCloth, Simulation};
-use crate::collision::{Cloth, Depth, MovedCloth, ObstacleMotion, Resolution, contacts, resolve};
+use crate::collision::{
+    Cloth, ClothContact, Depth, FaceTree, MovedCloth, NearMemory, ObstacleMotion, Resolution,
+    contacts, resolve,
+};
 use crate::dynamics::{ContactPoint, StepError, StepForces, StepState};
 use crate::scene::Contact;
 
@@ -186,8 +189,21 @@ impl MovingCloth {
         settings: &Contact,
         depth: Depth,
     ) -> Resolution {
-        // Borrowed field by field: the tree and what is known of obstacles are written as well.
-        let mut moved = MovedCloth {
+        let (mut moved, tree, near, own) = self.parts(position_at_start);
+        resolve(&mut moved, tree, obstacles, near, settings, depth, own)
+    }
+
+    /// The cloth where it is, from where it was at the start of a step.
+    pub(super) fn moved<'a>(&'a mut self, position_at_start: &'a [DVec3]) -> MovedCloth<'a> {
+        self.parts(position_at_start).0
+    }
+
+    /// What is corrected after a step, and all that is known of where it is.
+    fn parts<'a>(
+        &'a mut self,
+        position_at_start: &'a [DVec3],
+    ) -> (MovedCloth<'a>, &'a mut FaceTree, &'a mut NearMemory, Option<&'a mut ClothContact>) {
+        let moved = MovedCloth {
             position: &mut self.state.position,
             velocity: &mut self.state.velocity,
             position_at_start,
@@ -196,19 +212,6 @@ impl MovingCloth {
             mass: self.system.masses(),
             faces: &self.faces,
         };
-        let own = self.own.as_mut();
-        resolve(&mut moved, &mut self.tree, obstacles, &mut self.near, settings, depth, own)
-    }
-
-    pub(super) fn moved<'a>(&'a mut self, position_at_start: &'a [DVec3]) -> MovedCloth<'a> {
-        MovedCloth {
-            position: &mut self.state.position,
-            velocity: &mut self.state.velocity,
-            position_at_start,
-            area: &self.area,
-            thickness: &self.thickness,
-            mass: self.system.masses(),
-            faces: &self.faces,
-        }
+        (moved, &mut self.tree, &mut self.near, self.own.as_mut())
     }
 }

@@ -16,21 +16,7 @@ mod tangles;
 
 /// A one metre sheet of two by two cells in the plane z = 0.5.
 fn sheet() -> Mesh {
-    let mut raw = RawMesh::default();
-    for j in 0..3 {
-        for i in 0..3 {
-            let u = DVec2::new(f64::from(i), f64::from(j)) * 0.5;
-            raw.vertices.push((raw.positions.len() as u32, u));
-            raw.positions.push((u - 0.5).extend(0.5));
-        }
-    }
-    for j in 0..2 {
-        for i in 0..2 {
-            let [a, b, c, d] = [j * 3 + i, j * 3 + i + 1, j * 3 + i + 4, j * 3 + i + 3];
-            raw.faces.extend([[a, b, c], [a, c, d]]);
-        }
-    }
-    Mesh::from_raw(&raw, &[]).unwrap()
+    square(2, |u| (u - 0.5).extend(0.5))
 }
 
 fn fabric() -> Fabric {
@@ -41,6 +27,22 @@ fn fabric() -> Fabric {
         damping: 0.0,
         strain_limits: None,
     })
+}
+
+/// A square sheet of 1 m in cells along both sides, placed by a function of the material position.
+pub(super) fn square(cells: u32, place: impl Fn(DVec2) -> DVec3) -> Mesh {
+    let rows = cells + 1;
+    let mut raw = RawMesh::default();
+    for node in 0..rows * rows {
+        let u = DVec2::new(f64::from(node % rows), f64::from(node / rows)) / f64::from(cells);
+        raw.vertices.push((node, u));
+        raw.positions.push(place(u));
+    }
+    for cell in 0..cells * cells {
+        let [a, b] = [0, 1].map(|k| cell / cells * rows + cell % cells + k);
+        raw.faces.extend([[a, b, b + rows], [a, b + rows, a + rows]]);
+    }
+    Mesh::from_raw(&raw, &[]).unwrap()
 }
 
 /// An octahedron of radius 0.2 around the origin.

@@ -10,7 +10,7 @@ use crate::scene::{
     Preset, Scene, StageSwitches, Surface,
 };
 use crate::sim::{SimSettings, SizingMode};
-pub use crate::validation::stage::{block, garment, obstacle};
+pub use crate::validation::stage::{ball, block, garment, obstacle};
 
 /// The mesh stays as it is given.
 pub const FIXED: SimSettings = SimSettings { sizing: SizingMode::Uniform { edge_length: None } };
@@ -111,24 +111,6 @@ pub fn moving(surface: Surface, motion: usize) -> Obstacle {
 /// Where an obstacle stands.
 pub fn at(translation: DVec3) -> Pose {
     Pose { translation, ..Pose::IDENTITY }
-}
-
-/// A cube of finer and finer triangles, blown up to a radius (m).
-pub fn ball(radius: f64) -> Surface {
-    let mut surface = block(DVec3::ONE);
-    for _ in 0..3 {
-        let mut finer = Surface::default();
-        for [a, b, c] in surface.triangles.iter().map(|t| t.map(|v| surface.positions[v as usize]))
-        {
-            let first = finer.positions.len() as u32;
-            finer.positions.extend([a, b, c, a.midpoint(b), b.midpoint(c), c.midpoint(a)]);
-            let parts = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]];
-            finer.triangles.extend(parts.map(|t: [u32; 3]| t.map(|v| first + v)));
-        }
-        surface = finer.welded();
-    }
-    surface.positions.iter_mut().for_each(|p| *p = p.normalize() * radius);
-    surface
 }
 
 /// Around the z axis: of the circle in the middle of its tube, and of the tube (m).

@@ -100,6 +100,24 @@ pub fn block(half: DVec3) -> Surface {
     }
 }
 
+/// A cube of finer and finer triangles, blown up to a radius (m).
+pub fn ball(radius: f64) -> Surface {
+    let mut surface = block(DVec3::ONE);
+    for _ in 0..3 {
+        let mut finer = Surface::default();
+        for [a, b, c] in surface.triangles.iter().map(|t| t.map(|v| surface.positions[v as usize]))
+        {
+            let first = finer.positions.len() as u32;
+            finer.positions.extend([a, b, c, a.midpoint(b), b.midpoint(c), c.midpoint(a)]);
+            let parts = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]];
+            finer.triangles.extend(parts.map(|t: [u32; 3]| t.map(|v| first + v)));
+        }
+        surface = finer.welded();
+    }
+    surface.positions.iter_mut().for_each(|p| *p = p.normalize() * radius);
+    surface
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,7 @@
 //! How far faces that nobody looks at are taken to have buckled between their nodes
 //! ([`VD15`](crate::papers::VD15) 3.5).
 
-use super::{ViewerWindow, nearness};
+use super::{ViewerWindow, near_frame};
 use crate::mesh::{FaceId, IdVec, Mesh};
 use crate::scene::ViewSettings;
 
@@ -11,15 +11,6 @@ const ALPHA_MIN: f64 = 1e-3;
 
 /// Areas that differ by less than this share are the same: of equal faces rounding must not choose.
 const EQUAL_AREAS: f64 = 1e-6;
-
-/// How near a face is to the frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Nearness {
-    /// In the frame of a viewer now.
-    is_in_frame: bool,
-    /// s = max over viewers and tau of w(tau) max(0, 1 - d(t+tau)/m), 0..1.
-    presence: f64,
-}
 
 /// Alpha of every face of a garment, in [1e-3, 1]: what its compressive stiffness is multiplied by.
 ///
@@ -32,16 +23,16 @@ pub fn buckling_alphas(
     windows: &[ViewerWindow],
     settings: &ViewSettings,
 ) -> IdVec<FaceId, f64> {
-    if windows.is_empty() || settings.buckling_exponent == 0.0 {
+    if settings.buckling_exponent == 0.0 {
         return IdVec::filled(1.0, mesh.face_count());
     }
-    let near: IdVec<FaceId, Nearness> =
-        mesh.face_ids().map(|face| Nearness::of(mesh, face, windows, settings.margin_m)).collect();
-    let areas = mesh.face_ids().filter(|&f| !near[f].is_in_frame).map(|f| mesh.material_area(f));
+    let near = near_frame(mesh, windows, settings.margin_m);
+    let is_in_frame = |face: FaceId| near[face].out_of_frame_distance == 0.0;
+    let areas = mesh.face_ids().filter(|&f| !is_in_frame(f)).map(|f| mesh.material_area(f));
     let (least, most) =
         areas.fold((f64::INFINITY, 0.0_f64), |(low, high), area| (low.min(area), high.max(area)));
     let alpha = |face: FaceId| {
-        if near[face].is_in_frame || most - least <= EQUAL_AREAS * most {
+        if is_in_frame(face) || most - least <= EQUAL_AREAS * most {
             return 1.0;
         }
         let fineness = (most - mesh.material_area(face)) / (most - least);
@@ -49,22 +40,6 @@ pub fn buckling_alphas(
         1.0 - (1.0 - alpha) * (1.0 - near[face].presence)
     };
     mesh.face_ids().map(alpha).collect()
-}
-
-impl Nearness {
-    fn of(mesh: &Mesh, face: FaceId, windows: &[ViewerWindow], margin: f64) -> Self {
-        let triangle = mesh.face_positions(face);
-        let mut found = Self { is_in_frame: false, presence: 0.0 };
-        for sample in windows.iter().flat_map(ViewerWindow::samples) {
-            if sample.weight <= found.presence {
-                continue;
-            }
-            let distance = sample.frustum.distance_to_triangle_up_to(margin, triangle);
-            found.presence = found.presence.max(sample.weight * nearness(distance, margin));
-            found.is_in_frame |= sample.tau == 0.0 && distance == 0.0;
-        }
-        found
-    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! The view-dependent metric of a garment, for all who look, now and soon.
 
 use super::{
-    Sight, ViewSample, ViewerWindow, Visibility, nearness, resampled, screen_clamped,
-    screen_jacobian,
+    Sight, ViewSample, ViewerWindow, Visibility, resampled, screen_clamped, screen_jacobian,
 };
 use crate::math::{SymTensor2, tensor_max};
 use crate::mesh::{FaceId, IdVec, Mesh};
@@ -15,12 +14,6 @@ pub struct ViewField {
     pub metric: IdVec<FaceId, SymTensor2>,
     /// nu(t) of eq. 4 after resampling, the largest of all viewers; 0..1, to be shown.
     pub factor: IdVec<FaceId, f64>,
-    /// d now, to the nearest frustum (m): exact below the margin, elsewhere a lower bound not below
-    /// it; 0 only for faces in frame.
-    pub out_of_frame_distance: IdVec<FaceId, f64>,
-    /// s = max over viewers and tau of w(tau) max(0, 1 - d(t+tau)/m), 0..1: how soon the face is in
-    /// frame, 1 when it is.
-    pub presence: IdVec<FaceId, f64>,
 }
 
 /// The sizing field for those who look ([`VD15`](crate::papers::VD15) 3.1 to 3.3).
@@ -48,12 +41,7 @@ pub fn view_field(
 
 /// The field of a garment at which nobody looks.
 fn unseen(base: &IdVec<FaceId, SymTensor2>) -> ViewField {
-    ViewField {
-        metric: base.clone(),
-        factor: IdVec::filled(1.0, base.len()),
-        out_of_frame_distance: IdVec::filled(0.0, base.len()),
-        presence: IdVec::filled(1.0, base.len()),
-    }
+    ViewField { metric: base.clone(), factor: IdVec::filled(1.0, base.len()) }
 }
 
 /// Carries nu(t) = max over tau of w(tau) nu~(t+tau) on by one tau
@@ -79,7 +67,7 @@ impl Look<'_> {
         // Per face the largest s for which the metric is known to be at least s M.
         let mut full_scale = IdVec::filled(0.0, self.mesh.face_count());
         for sample in windows.iter().flat_map(ViewerWindow::samples) {
-            let sights = self.sights(sample, &mut field);
+            let sights = self.sights(sample);
             let factors = self.resampled(&sights.iter().map(|s| s.factor).collect(), &sights);
             for face in self.mesh.face_ids() {
                 let nu = factors[face];
@@ -109,10 +97,10 @@ impl Look<'_> {
     fn as_in_the_papers(&self, window: &ViewerWindow) -> ViewField {
         let mut field = self.nothing_seen();
         let present = window.present();
-        let now = self.sights(present, &mut field);
+        let now = self.sights(present);
         let mut nu: IdVec<FaceId, f64> = now.iter().map(|s| s.factor).collect();
         for sample in &window.samples()[1..] {
-            anticipate(&mut nu, sample.weight, &self.sights(sample, &mut field));
+            anticipate(&mut nu, sample.weight, &self.sights(sample));
         }
         field.factor = self.resampled(&nu, &now);
         for face in self.mesh.face_ids() {
@@ -128,23 +116,14 @@ impl Look<'_> {
         ViewField {
             metric: IdVec::filled(SymTensor2::ZERO, count),
             factor: IdVec::filled(0.0, count),
-            out_of_frame_distance: IdVec::filled(f64::INFINITY, count),
-            presence: IdVec::filled(0.0, count),
         }
     }
 
-    /// Every face in one view; notes in the field how near to the frame it is.
-    fn sights(&self, sample: &ViewSample, field: &mut ViewField) -> IdVec<FaceId, Sight> {
+    /// Every face in one view.
+    fn sights(&self, sample: &ViewSample) -> IdVec<FaceId, Sight> {
         let see = |face: FaceId| {
             let triangle = self.mesh.face_positions(face);
-            let sight = Sight::of(triangle, sample, self.settings, self.two_sided);
-            let presence = sample.weight * nearness(sight.distance, self.settings.margin_m);
-            field.presence[face] = field.presence[face].max(presence);
-            if sample.tau == 0.0 {
-                let d = &mut field.out_of_frame_distance[face];
-                *d = d.min(sight.distance);
-            }
-            sight
+            Sight::of(triangle, sample, self.settings, self.two_sided)
         };
         self.mesh.face_ids().map(see).collect()
     }

@@ -4,7 +4,7 @@ use super::*;
 use crate::shot::tests::{key, path, still};
 use crate::shot::{CameraKey, CameraPath, Frustum};
 use crate::sizing::tests::{flat, sheet};
-use crate::view::{Facing, facing, spatial_view_factor};
+use crate::view::{Facing, NearFrame, facing, near_frame, spatial_view_factor};
 
 /// A square metre in the xz plane around the origin, seen from -y by its front.
 fn curtain() -> Mesh {
@@ -40,8 +40,19 @@ impl Case {
     }
 
     fn at(&self, path: &CameraPath, frame: f64) -> ViewField {
-        let window = ViewerWindow::new(path, frame, self.settings.anticipation_frames);
-        self.field(&[window])
+        self.field(&[self.window(path, frame)])
+    }
+
+    fn near(&self, windows: &[ViewerWindow]) -> IdVec<FaceId, NearFrame> {
+        near_frame(&self.mesh, windows, self.settings.margin_m)
+    }
+
+    fn near_at(&self, path: &CameraPath, frame: f64) -> IdVec<FaceId, NearFrame> {
+        self.near(&[self.window(path, frame)])
+    }
+
+    fn window(&self, path: &CameraPath, frame: f64) -> ViewerWindow {
+        ViewerWindow::new(path, frame, self.settings.anticipation_frames)
     }
 }
 
@@ -84,18 +95,20 @@ fn a_garment_close_by_in_frame_is_not_coarsened() {
     let field = case.at(&path(vec![close_up()]), 0.0);
     assert_eq!(field.metric, base(&case.mesh));
     assert!(field.factor.iter().all(|&nu| nu == 1.0));
-    assert!(field.presence.iter().all(|&s| s == 1.0));
-    assert!(field.out_of_frame_distance.iter().all(|&d| d == 0.0));
+    let near = case.near_at(&path(vec![close_up()]), 0.0);
+    assert!(near.iter().all(|n| n.presence == 1.0));
+    assert!(near.iter().all(|n| n.out_of_frame_distance == 0.0));
 }
 
 #[test]
 fn a_garment_behind_the_camera_has_the_least_factor() {
     let case = Case::new(curtain());
     let field = case.at(&path(vec![looking_away()]), 0.0);
+    let near = case.near_at(&path(vec![looking_away()]), 0.0);
     for face in case.mesh.face_ids() {
         assert_eq!(field.factor[face], 0.01);
         assert!(size(field.metric[face] - base(&case.mesh)[face] * 1e-4) < 1e-12);
-        assert!(field.out_of_frame_distance[face] >= 0.4 && field.presence[face] == 0.0);
+        assert!(near[face].out_of_frame_distance >= 0.4 && near[face].presence == 0.0);
     }
 }
 
@@ -269,13 +282,15 @@ fn two_viewers_get_at_least_what_each_asks_for() {
     let windows = paths.each_ref().map(|p| ViewerWindow::new(p, 0.0, 5.0));
     let both = case.field(&windows);
     let each = windows.each_ref().map(|w| case.field(std::slice::from_ref(w)));
+    let near_both = case.near(&windows);
+    let near_each = windows.each_ref().map(|w| case.near(std::slice::from_ref(w)));
     for face in case.mesh.face_ids() {
         for one in &each {
             assert!(finer_or_equal(both.metric[face], one.metric[face]));
             assert!(both.factor[face] >= one.factor[face]);
         }
-        let least = each.each_ref().map(|f| f.out_of_frame_distance[face]);
-        assert_eq!(both.out_of_frame_distance[face], least[0].min(least[1]));
+        let least = near_each.each_ref().map(|near| near[face].out_of_frame_distance);
+        assert_eq!(near_both[face].out_of_frame_distance, least[0].min(least[1]));
     }
     let reversed = [windows[1].clone(), windows[0].clone()];
     for (a, b) in both.metric.iter().zip(&case.field(&reversed).metric) {
@@ -307,9 +322,9 @@ fn presence_grows_before_a_face_enters_the_frame() {
     let case = Case::new(curtain());
     let shot = cut_at_10(looking_away(), close_up());
     for (frame, expected) in [(4.0, 0.0), (6.0, 0.2), (9.0, 0.8), (10.0, 1.0)] {
-        let field = case.at(&shot, frame);
-        assert!(field.presence.iter().all(|&s| (s - expected).abs() < 1e-12));
-        assert_eq!(field.out_of_frame_distance.as_slice()[0] == 0.0, frame == 10.0);
+        let near = case.near_at(&shot, frame);
+        assert!(near.iter().all(|n| (n.presence - expected).abs() < 1e-12));
+        assert_eq!(near.as_slice()[0].out_of_frame_distance == 0.0, frame == 10.0);
     }
 }
 

@@ -7,11 +7,13 @@
 //! silhouette    factors carried across edges to hidden faces (3.3)
 //! screen        no finer than the image can show (eqs. 5 to 8)
 //! field         all of it combined over the window and the viewers (eqs. 2 and 4)
+//! near_frame    how near faces are to the frame, now and soon
 //! compensation  how far what nobody sees has buckled between its nodes (eq. 11)
 //! ```
 
 mod compensation;
 mod field;
+mod near_frame;
 mod screen;
 mod sight;
 mod silhouette;
@@ -19,6 +21,7 @@ mod window;
 
 pub use compensation::buckling_alphas;
 pub use field::{ViewField, view_field};
+pub use near_frame::{NearFrame, near_frame};
 pub use screen::{screen_clamped, screen_jacobian};
 pub use sight::{Facing, Sight, Visibility, facing, nearness, spatial_view_factor};
 pub use silhouette::resampled;

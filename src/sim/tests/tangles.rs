@@ -1,28 +1,16 @@
 //! Garments that start inside one another or inside obstacles, and ones that come to be tangled.
 
-use std::f64::consts::PI;
-
 use super::frame_to_frame::bits;
 use super::*;
 use crate::collision::crossings;
+use crate::validation::stage::ball;
 
 /// Cells along a side of a sheet.
 const CELLS: u32 = 14;
 
 /// A square sheet of 1 m, placed in the world.
 fn placed(place: impl Fn(DVec2) -> DVec3) -> Mesh {
-    let rows = CELLS + 1;
-    let mut raw = RawMesh::default();
-    for node in 0..rows * rows {
-        let u = DVec2::new(f64::from(node % rows), f64::from(node / rows)) / f64::from(CELLS);
-        raw.vertices.push((node, u));
-        raw.positions.push(place(u));
-    }
-    for cell in 0..CELLS * CELLS {
-        let [a, b] = [0, 1].map(|k| cell / CELLS * rows + cell % CELLS + k);
-        raw.faces.extend([[a, b, b + rows], [a, b + rows, a + rows]]);
-    }
-    Mesh::from_raw(&raw, &[]).unwrap()
+    square(CELLS, place)
 }
 
 /// Sheets in mid-air, without gravity.
@@ -138,33 +126,6 @@ fn tangles_follow_from_each_frame_and_have_the_same_bits_for_any_number_of_threa
         let again = pool.install(|| goes_on(&shot, &frame, 2));
         assert!(again.iter().zip(&straight).all(|(a, b)| bits(a) == bits(b)), "{threads} threads");
     }
-}
-
-/// A ball of some radius around the origin.
-fn ball(radius: f64) -> Surface {
-    let (rings, sectors) = (12u32, 20u32);
-    let at = |ring: u32, sector: u32| {
-        let (polar, around) =
-            (PI * f64::from(ring) / f64::from(rings), 2.0 * PI * f64::from(sector) / 20.0);
-        DVec3::new(polar.sin() * around.cos(), polar.sin() * around.sin(), polar.cos()) * radius
-    };
-    let mut surface = Surface::default();
-    for ring in 0..rings {
-        for sector in 0..sectors {
-            let next = (sector + 1) % sectors;
-            let first = surface.positions.len() as u32;
-            surface.positions.extend([
-                at(ring, sector),
-                at(ring + 1, sector),
-                at(ring + 1, next),
-                at(ring, next),
-            ]);
-            surface
-                .triangles
-                .extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
-        }
-    }
-    surface.welded()
 }
 
 /// A sheet at a height above the middle of a ball (m).
