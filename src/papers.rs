@@ -103,3 +103,7 @@ pub enum HVTG08 {}
 /// Volino, Magnenat-Thalmann: *Resolving Surface Collisions through Intersection Contour
 /// Minimization*, ACM TOG 2006.
 pub enum VMT06 {}
+
+/// Chen, Hsu, Liu, Macklin, Yang, Yuksel: *Offset Geometric Contact*, ACM TOG 2025: bounds on the ways
+/// of vertices in place of continuous tests.
+pub enum CHLMYY25 {}

@@ -11,7 +11,7 @@ use super::failure::Failure;
 use crate::sim::SizingMode;
 
 /// Which shot, and what to change about it.
-#[derive(Args, Clone, Debug)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct ShotArgs {
     /// A shot file or an ARCSim scene; to draw also a folder that `simulate` wrote; without one the
     /// shot that comes with the program

@@ -1,6 +1,7 @@
 //! `shotsilk chart`: suites of measurements, as tables and files.
 
 mod bending;
+mod contact;
 mod stability;
 mod untangling;
 mod visible_error;
@@ -52,6 +53,9 @@ enum Suite {
     Bending,
     /// How methods take the same tangles of sheets apart: untangling.csv, untangling.svg
     Untangling,
+    /// How ways of keeping cloth out of cloth do on the same steps, of scenes of its own and of the shot
+    /// if one is given: contact.csv, contact.md, contact.svg
+    Contact,
     /// Growing stress until the simulator fails: stability.csv, stability.md, stability.svg
     Stability,
     /// What coarsening costs a shot on screen, against a fine reference run of it: charts, tables,
@@ -81,6 +85,8 @@ impl ChartArgs {
         let given: Vec<(bool, &'static str)> = match suite {
             Suite::Validation | Suite::Stability => of_shots.to_vec(),
             Suite::Bending | Suite::Untangling => of_shots.into_iter().chain([only]).collect(),
+            Suite::Contact if shot.is_some() => vec![(*shaded, "--shaded")],
+            Suite::Contact => of_shots.to_vec(),
             Suite::VisibleError => of_visible_error.into_iter().chain([only]).collect(),
         };
         given.into_iter().find_map(|(is_given, name)| is_given.then_some(name))
@@ -100,6 +106,7 @@ pub fn run(args: &ChartArgs, log: LogArgs) -> Result<()> {
         Suite::Validation => validation(args),
         Suite::Bending => bending::run(&args.out),
         Suite::Untangling => untangling::run(&args.out),
+        Suite::Contact => contact::run(&args.shot, &args.out, args.only.as_deref()),
         Suite::Stability => stability::run(&args.out, args.only.as_deref()),
         Suite::VisibleError => visible_error(args, log),
     }

@@ -50,7 +50,7 @@ const ADVANCES_MAX: usize = 1000;
 /// told to about the root of an epsilon of their length, 1.5e-8, where they are nearly parallel: so
 /// small is the sine of the angle below which the difference of products that holds its square is all
 /// rounding, and so far off may the nearest points then be. Seven times that leaves room.
-const TOLERANCE_OF_SIZE_MIN: f64 = 1e-7;
+pub(super) const TOLERANCE_OF_SIZE_MIN: f64 = 1e-7;
 
 impl Sweep {
     /// When the features first come as close as the tolerance (m), if they touch; `None` is
@@ -138,7 +138,7 @@ fn corner_pairs(features: Features) -> &'static [(usize, usize)] {
 }
 
 /// The longest edge of the features (m).
-fn size(features: Features, [a, b, c, d]: [DVec3; 4]) -> f64 {
+pub(super) fn size(features: Features, [a, b, c, d]: [DVec3; 4]) -> f64 {
     let squared = match features {
         Features::VertexFace => {
             b.distance_squared(c).max(c.distance_squared(d)).max(d.distance_squared(b))

@@ -27,7 +27,7 @@ mod shape;
 mod stop;
 mod topology;
 
-pub use cloth::{ClothContact, ClothGuard, Crossing, crossings};
+pub use cloth::{ClothContact, ClothGuard, Crossing, WayBounds, crossings};
 pub use continuous::{Features, FirstTouch, Sweep};
 pub use contour::{
     Cut, Limits, Method, Round, TangledCloth, Untangling, cuts, lift_cuts, stop_at_crossings,

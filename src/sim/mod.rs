@@ -23,11 +23,13 @@ mod refine;
 mod settings;
 mod start;
 mod step;
+mod trial;
 mod untangle;
 
 pub use frame::{Frame, FrameReport, StageCounts, StageSeconds};
 pub use settings::{SimSettings, SizingMode};
 pub use step::SimError;
+pub use trial::TrialStep;
 
 use std::sync::Arc;
 
@@ -136,9 +138,7 @@ impl Simulation {
     pub fn advance(&mut self) -> Result<Frame, SimError> {
         let mut clock = StageClock::start();
         let mut report = FrameReport::default();
-        self.cloth.forget_the_past(&self.garments, &mut clock);
-        clock.time(Stage::View, || self.compensate_buckling());
-        clock.time(Stage::Untangle, || self.let_go_of_tangles());
+        self.begin_frame(&mut clock);
         let (start, step_time) = (self.time(), self.scene.step_time());
         for step in 0..self.scene.steps_per_frame {
             let time = start + f64::from(step) * step_time;
@@ -154,6 +154,13 @@ impl Simulation {
         clock.time(Stage::Collision, || self.clear_obstacles(&mut report));
         self.untangle(Moment::Frame, &mut clock, &mut report);
         Ok(self.publish(clock, report))
+    }
+
+    /// From what is published to what the steps need.
+    fn begin_frame(&mut self, clock: &mut StageClock) {
+        self.cloth.forget_the_past(&self.garments, clock);
+        clock.time(Stage::View, || self.compensate_buckling());
+        clock.time(Stage::Untangle, || self.let_go_of_tangles());
     }
 
     /// Cloth that is inside an obstacle, however deep, is led out once a frame: where a coarse face

@@ -88,6 +88,25 @@ impl Simulation {
         clock: &mut StageClock,
         report: &mut FrameReport,
     ) -> Result<(), StepError> {
+        let (before, obstacles) = self.implicit_step(time, step_time, regime, clock, report)?;
+        clock.time(Stage::Collision, || self.resolve(&before, &obstacles, report));
+        let end = match regime {
+            Regime::Motion => time + step_time,
+            Regime::Relaxation => time,
+        };
+        self.keep_if_finite(before, end)
+    }
+
+    /// A step up to where collisions are resolved: where the cloth was before it, and what the
+    /// obstacles do in it.
+    pub(super) fn implicit_step(
+        &mut self,
+        time: f64,
+        step_time: f64,
+        regime: Regime,
+        clock: &mut StageClock,
+        report: &mut FrameReport,
+    ) -> Result<(StepState, Vec<ObstacleMotion>), StepError> {
         let scene = self.scene.clone();
         let (end, gravity, air) = match regime {
             Regime::Motion => (time + step_time, scene.gravity, scene.air),
@@ -114,8 +133,7 @@ impl Simulation {
             counts.factorisations += outcome.factorisations as u64;
             counts.unconverged_steps += u64::from(!outcome.convergence.is_satisfied());
         }
-        clock.time(Stage::Collision, || self.resolve(&before, &obstacles, report));
-        self.keep_if_finite(before, end)
+        Ok((before, obstacles))
     }
 
     /// Ends a step: a state that is not finite is dropped for the one before.
@@ -199,7 +217,7 @@ impl MovingCloth {
     }
 
     /// What is corrected after a step, and all that is known of where it is.
-    fn parts<'a>(
+    pub(super) fn parts<'a>(
         &'a mut self,
         position_at_start: &'a [DVec3],
     ) -> (MovedCloth<'a>, &'a mut FaceTree, &'a mut NearMemory, Option<&'a mut ClothContact>) {

@@ -16,7 +16,7 @@ mod record;
 mod ring;
 mod run;
 mod slivers;
-mod stage;
+pub(crate) mod stage;
 mod step;
 mod stiffness;
 mod stress;

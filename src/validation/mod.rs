@@ -29,6 +29,7 @@ pub(crate) mod stage;
 mod stick_slip;
 pub mod tangle;
 mod triangulate;
+pub mod way_bounds;
 mod wrinkles;
 
 pub use experiment::{Claim, Experiment, ExperimentError, Outcome, Row, Tolerance};

@@ -5,6 +5,7 @@
 //! ([`stop`]): first by impacts one by one, then, where these go on and on, by letting what touches
 //! move as one ([`zones`]).
 
+mod bounds;
 mod contacts;
 mod crossings;
 mod guard;
@@ -15,6 +16,7 @@ mod stop;
 mod tangled;
 mod zones;
 
+pub use bounds::WayBounds;
 pub use crossings::{Crossing, crossings};
 pub use guard::ClothGuard;
 pub(super) use stop::{ClothSearch, stop_cloth};

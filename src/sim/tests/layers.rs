@@ -56,6 +56,29 @@ fn garments_on_one_another_do_not_pass_through_each_other() {
 }
 
 #[test]
+fn a_trial_step_shows_the_next_step_and_changes_nothing_of_what_follows() {
+    let start = |steps: u32| {
+        let mut scene = on_one_another();
+        scene.steps_per_frame = steps;
+        scene.stages.remeshing = false;
+        Simulation::start(Arc::new(scene), SimSettings { sizing: SizingMode::Adaptive }).unwrap().0
+    };
+    let [mut plain, mut asked] = [0, 1].map(|_| start(4));
+    for _ in 0..FRAMES {
+        asked.trial_step().unwrap();
+        assert!(bits(&plain.advance().unwrap()) == bits(&asked.advance().unwrap()));
+    }
+    // Nothing touches in the first step of all, and the step is the frame.
+    let mut single = start(1);
+    let trial = single.trial_step().unwrap();
+    let frame = single.advance().unwrap();
+    let garments: Vec<&Mesh> = frame.garments.iter().map(|g| &**g).collect();
+    let next = StepState::gathered(&garments);
+    assert_eq!(trial.end.position, next.position);
+    assert!(trial.start.position != trial.end.position);
+}
+
+#[test]
 fn layers_follow_from_each_frame() {
     assert_follows_from_each_frame(on_one_another(), SizingMode::Adaptive, FRAMES);
 }
