@@ -54,7 +54,8 @@ impl Shot {
     /// `visit`.
     ///
     /// # Errors
-    /// If the simulation fails, `visit` does, or the user asks to stop: after the frame in work.
+    /// If the simulation fails, `visit` does, or the user asks to stop: after the step in work, whose
+    /// frame is dropped.
     pub fn simulate(
         &self,
         start: Option<&Frame>,
@@ -62,26 +63,31 @@ impl Shot {
         mut visit: impl FnMut(Frame) -> Result<()>,
     ) -> Result<()> {
         let (scene, settings) = (self.scene.clone(), self.settings);
+        let goes_on = || interrupt.requested().is_none();
         let mut simulation = match start {
             Some(frame) => Simulation::from_frame(scene, settings, frame).map_err(Failure::from)?,
             None => {
-                let (simulation, frame) =
-                    Simulation::start(scene, settings).map_err(Failure::from)?;
+                let started = Simulation::start_while(scene, settings, &goes_on);
+                let started = started.map_err(Failure::from)?;
+                let (simulation, frame) = started.ok_or_else(|| interrupted(interrupt))?;
                 log_warnings(&frame);
                 visit(frame)?;
                 simulation
             }
         };
         for _ in start.map_or(0, |frame| frame.number)..self.frames.last {
-            if let Some(signal) = interrupt.requested() {
-                return Err(Failure::Interrupted(signal).into());
-            }
-            let frame = simulation.advance().map_err(Failure::from)?;
+            let frame = simulation.advance_while(&goes_on).map_err(Failure::from)?;
+            let frame = frame.ok_or_else(|| interrupted(interrupt))?;
             log_warnings(&frame);
             visit(frame)?;
         }
         Ok(())
     }
+}
+
+/// Once somebody has asked to stop.
+fn interrupted(interrupt: &Interrupt) -> Failure {
+    Failure::Interrupted(interrupt.requested().expect("the simulation ends early when asked to"))
 }
 
 /// The shot asked for, or the program's own, and where its files are.

@@ -81,6 +81,20 @@ impl Simulation {
     /// # Errors
     /// If relaxation turns out not finite even in the smallest steps.
     pub fn start(scene: Arc<Scene>, settings: SimSettings) -> Result<(Self, Frame), SimError> {
+        let started = Self::start_while(scene, settings, &|| true)?;
+        Ok(started.expect("nobody has put an end to it"))
+    }
+
+    /// As [`Simulation::start`], but asks before each step of relaxation whether to go on. `None` where
+    /// not.
+    ///
+    /// # Errors
+    /// As [`Simulation::start`].
+    pub fn start_while(
+        scene: Arc<Scene>,
+        settings: SimSettings,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Result<Option<(Self, Frame)>, SimError> {
         let mut clock = StageClock::start();
         let obstacles = Obstacles::new(&scene);
         let garments: Vec<Mesh> =
@@ -98,13 +112,15 @@ impl Simulation {
         let mut report = FrameReport::default();
         simulation.take_apart_at_start(&mut clock, &mut report);
         simulation.warn_of_bending(&mut report);
-        simulation.settle(&mut clock, &mut report)?;
+        if simulation.settle(goes_on, &mut clock, &mut report)?.is_break() {
+            return Ok(None);
+        }
         simulation.perturb();
         simulation.cloth.refit();
         clock.time(Stage::Collision, || simulation.clear_obstacles(&mut report));
         simulation.untangle(Moment::Start, &mut clock, &mut report);
         let frame = simulation.publish(clock, report);
-        Ok((simulation, frame))
+        Ok(Some((simulation, frame)))
     }
 
     /// Goes on from a published frame of the same scene and settings.
@@ -136,11 +152,24 @@ impl Simulation {
     /// # Errors
     /// If a step fails even when halved as often as allowed.
     pub fn advance(&mut self) -> Result<Frame, SimError> {
+        let frame = self.advance_while(&|| true)?;
+        Ok(frame.expect("nobody has put an end to it"))
+    }
+
+    /// As [`Simulation::advance`], but asks before each step whether to go on. `None` where not: the
+    /// simulation stays between two frames and must not be advanced further.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn advance_while(&mut self, goes_on: &dyn Fn() -> bool) -> Result<Option<Frame>, SimError> {
         let mut clock = StageClock::start();
         let mut report = FrameReport::default();
         self.begin_frame(&mut clock);
         let (start, step_time) = (self.time(), self.scene.step_time());
         for step in 0..self.scene.steps_per_frame {
+            if !goes_on() {
+                return Ok(None);
+            }
             let time = start + f64::from(step) * step_time;
             self.step(time, step_time, Regime::Motion, &mut clock, &mut report)?;
         }
@@ -153,7 +182,7 @@ impl Simulation {
         }
         clock.time(Stage::Collision, || self.clear_obstacles(&mut report));
         self.untangle(Moment::Frame, &mut clock, &mut report);
-        Ok(self.publish(clock, report))
+        Ok(Some(self.publish(clock, report)))
     }
 
     /// From what is published to what the steps need.

@@ -271,6 +271,26 @@ fn a_step_that_turns_non_finite_is_halved_reported_and_given_up() {
 }
 
 #[test]
+fn it_asks_before_every_step_whether_to_go_on() {
+    let settings = SimSettings { sizing: SizingMode::Adaptive };
+    let scene = Arc::new(scene(sheet()));
+    let left = std::cell::Cell::new(0i64);
+    let goes_on = || left.replace(left.get() - 1) > 0;
+    assert!(Simulation::start_while(scene.clone(), settings, &goes_on).unwrap().is_none());
+
+    let (mut simulation, _) = Simulation::start(scene.clone(), settings).unwrap();
+    left.set(i64::from(scene.steps_per_frame));
+    let all = simulation.advance_while(&goes_on).unwrap();
+    assert_eq!(all.map(|frame| frame.number), Some(1));
+    let before = simulation.cloth.state.position.clone();
+    left.set(i64::from(scene.steps_per_frame) - 1);
+    assert!(simulation.advance_while(&goes_on).unwrap().is_none());
+    assert!(left.get() == -1, "asked once more after it was told to stop");
+    assert_ne!(simulation.cloth.state.position, before);
+    assert_eq!(simulation.frame, 1);
+}
+
+#[test]
 fn a_handle_holds_its_nodes_until_it_lets_go() {
     let handle =
         Handle { garment: 0, nodes: vec![0, 2], motion: None, start_time: 0.0, end_time: 0.2 };

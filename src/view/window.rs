@@ -22,7 +22,8 @@ pub struct ViewerWindow {
 impl ViewerWindow {
     /// Samples the path at `frame`, at every whole frame after it and on both sides of each cut,
     /// `anticipation_frames` ahead. A view seen before in the window is left out: it would weigh
-    /// less.
+    /// less. So are moments after the first whole frame at which the path has ended, which see what
+    /// that one does.
     ///
     /// # Panics
     /// If the path has no keys.
@@ -32,7 +33,9 @@ impl ViewerWindow {
         let mut cuts = path.cuts();
         let end = frame + anticipation_frames;
         cuts.retain(|&cut| frame < cut && cut < end);
-        let mut moments: Vec<f64> = whole_frames_between(frame, end).collect();
+        let [_, last_key] = path.frame_range();
+        let last = end.min(last_key.ceil() + 1.0);
+        let mut moments: Vec<f64> = whole_frames_between(frame, last).collect();
         moments.extend(&cuts);
         moments.sort_by(f64::total_cmp);
         moments.dedup();
@@ -93,6 +96,26 @@ mod tests {
         let window = ViewerWindow::new(&moving(), 10.0, 4.0);
         assert_eq!(taus_and_weights(&window), [(0.0, 1.0), (1.0, 0.75), (2.0, 0.5), (3.0, 0.25)]);
         assert_eq!(window.present().view, moving().view(10.0));
+    }
+
+    #[test]
+    fn nothing_is_looked_at_after_the_path_has_ended_however_far_ahead() {
+        let keys = [0.0, 30.0, 90.3].map(|at| key(at, DVec3::X * (1.0 + at), DVec3::ZERO));
+        for path in [path(keys.to_vec()), path(keys[..1].to_vec())] {
+            for (now, whole) in
+                [(-2.5, -2.0), (88.0, 89.0), (90.0, 91.0), (90.7, 91.0), (3e6, 3e6 + 1.0)]
+            {
+                let window = ViewerWindow::new(&path, now, 3e7);
+                let mut seen = vec![path.view(now)];
+                for moment in (0..200).map(|i| path.view(whole + f64::from(i))) {
+                    if !seen.contains(&moment) {
+                        seen.push(moment);
+                    }
+                }
+                let views: Vec<View> = window.samples().iter().map(|s| s.view).collect();
+                assert_eq!(views, seen, "at {now}");
+            }
+        }
     }
 
     #[test]

@@ -7,8 +7,11 @@ use super::program;
 use super::same_bits::assert_same;
 use super::small_shot::SmallShot;
 
-/// Starts a command, sends a signal once a frame is done, and returns its exit code and stderr.
-fn interrupted(shot: &SmallShot, line: &str, signal: &str) -> (Option<i32>, String) {
+/// When most are told to stop.
+const AT: &str = "frame 3 ";
+
+/// Starts a command, sends a signal once its stderr has a text, and returns its exit code and stderr.
+fn interrupted(shot: &SmallShot, line: &str, signal: &str, at: &str) -> (Option<i32>, String) {
     let mut child = program::command(shot.folder(), line)
         .stderr(Stdio::piped())
         .stdout(Stdio::null())
@@ -16,8 +19,8 @@ fn interrupted(shot: &SmallShot, line: &str, signal: &str) -> (Option<i32>, Stri
         .expect("the program starts");
     let mut stderr = BufReader::new(child.stderr.take().expect("stderr is piped"));
     let mut text = String::new();
-    while !text.contains("frame 3 ") {
-        assert!(stderr.read_line(&mut text).unwrap() > 0, "ended before frame 3: {text}");
+    while !text.contains(at) {
+        assert!(stderr.read_line(&mut text).unwrap() > 0, "ended before {at}: {text}");
     }
     let kill = Command::new("kill").args([signal, &child.id().to_string()]).status();
     assert!(kill.expect("kill is installed").success());
@@ -30,7 +33,7 @@ fn a_simulation_that_is_told_to_stop_leaves_a_whole_run() {
     for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
         let shot = SmallShot::new();
         let line = "simulate shot.json --out run --frames 1000000";
-        let (found, text) = interrupted(&shot, line, signal);
+        let (found, text) = interrupted(&shot, line, signal, AT);
         assert_eq!(found, Some(code), "{text}");
         assert!(text.contains("interrupted; what is written so far is whole"), "{text}");
         let reader = shot.reader("run");
@@ -57,13 +60,29 @@ fn a_simulation_that_was_told_to_stop_goes_on_with_the_same_bits() {
     for signal in ["-INT", "-TERM"] {
         let shot = SmallShot::new();
         let line = "simulate shot.json --out run --frames 1000000";
-        let (_, text) = interrupted(&shot, line, signal);
+        let (_, text) = interrupted(&shot, line, signal, AT);
         assert!(text.contains("the same command with --resume goes on from there"), "{text}");
         let last = shot.reader("run").last_frame().unwrap() + 2;
         shot.run(&format!("simulate shot.json --out run --frames {last} --resume")).succeeds();
         shot.run(&format!("simulate shot.json --out straight --frames {last}")).succeeds();
         assert_same(&shot.reader("run"), &shot.reader("straight"));
     }
+}
+
+/// The frame would take days: nobody waits for its end.
+#[test]
+fn a_frame_in_work_is_dropped_and_the_run_goes_on_without_it() {
+    let shot = SmallShot::new();
+    let line = "simulate shot.json --out run --set steps_per_frame=1000000000";
+    let (code, text) = interrupted(&shot, line, "-TERM", "frame 0 ");
+    assert_eq!(code, Some(143), "{text}");
+    assert!(text.contains("the same command with --resume goes on from there"), "{text}");
+    assert_eq!(shot.names("run/frames"), ["000000.sfr"]);
+    assert_eq!(shot.text("run/stats.csv").lines().count(), 2);
+    let again = format!("{line} --resume");
+    let (code, text) = interrupted(&shot, &again, "-INT", "going on after frame 0");
+    assert_eq!(code, Some(130), "{text}");
+    assert_eq!(shot.names("run/frames"), ["000000.sfr"]);
 }
 
 #[test]
@@ -74,7 +93,7 @@ fn pictures_that_are_told_to_stop_leave_nothing() {
     ] {
         let shot = SmallShot::new();
         let before = shot.names("");
-        let (code, text) = interrupted(&shot, line, "-INT");
+        let (code, text) = interrupted(&shot, line, "-INT", AT);
         assert_eq!(code, Some(130), "{text}");
         assert_eq!(shot.names(""), before);
     }

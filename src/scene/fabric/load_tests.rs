@@ -104,8 +104,36 @@ fn a_fabric_has_its_own_contact_thickness_or_the_scenes() {
     assert_eq!((plain.garments[0].contact_thickness, plain.contact.thickness), (Some(5e-3), 5e-3));
     let record = load_fabric(r#"{"preset": "silk", "contact_thickness": 0.002}"#).unwrap().resolved;
     assert_eq!(record["fabrics"]["f"]["contact_thickness"], 0.002);
-    let error = load_fabric(r#"{"preset": "silk", "contact_thickness": 0}"#).unwrap_err();
-    assert!(error.to_string().contains("f.contact_thickness is 0, but must be"), "{error}");
+}
+
+#[test]
+fn contact_is_thicker_than_rounding_and_thin_beside_the_garment() {
+    let error = |thickness: &str| {
+        let fabric = format!(r#"{{"preset": "silk", "contact_thickness": {thickness}}}"#);
+        load_fabric(&fabric).unwrap_err().to_string()
+    };
+    for thin in ["0", "-1", "1e-300", "9.9e-6"] {
+        let error = error(thin);
+        let expected = "but must be at least 0.00001";
+        assert!(
+            error.contains("fabrics.f.contact_thickness is ") && error.contains(expected),
+            "{error}"
+        );
+    }
+    // The sheet is a square metre.
+    for thick in ["0.0501", "5", "1e300"] {
+        let error = error(thick);
+        let expected =
+            "but must be at most 0.0500: 0.05 of the side of a square as large as garment \"a\"";
+        assert!(
+            error.contains("fabrics.f.contact_thickness is ") && error.contains(expected),
+            "{error}"
+        );
+    }
+    for held_off in [1e-5, 0.05] {
+        let fabric = format!(r#"{{"preset": "silk", "contact_thickness": {held_off}}}"#);
+        assert_eq!(load_fabric(&fabric).unwrap().scene.contact.thickness, held_off);
+    }
 }
 
 #[test]

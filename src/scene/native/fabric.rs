@@ -46,6 +46,7 @@ pub struct FabricFile {
     pub strain_limits: Option<[f64; 2]>,
     /// Distance at which cloth of this fabric is held off obstacles (m); off other cloth it is the mean
     /// of both fabrics'. Default `contact.thickness`. The thickest is at most five times the thinnest.
+    /// Limits as those of `contact.thickness`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_thickness: Option<f64>,
 }

@@ -39,7 +39,7 @@ impl AirFile {
 #[serde(deny_unknown_fields, default)]
 pub struct ContactFile {
     /// Distance at which cloth is held off (m). Default 0.005. Thinner: closer contact, and more
-    /// work to keep it.
+    /// work to keep it. At least 1e-5, and at most 1/20 of the square root of a garment's area.
     pub thickness: f64,
     /// Stiffness of the contact layer per area of cloth (N/m per m^2). Default 1e6. Softer: heavy
     /// cloth sinks deeper into the layer.

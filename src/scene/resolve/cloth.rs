@@ -47,6 +47,7 @@ impl Resolver<'_> {
             let place = obj.place_of(&error);
             Problem::Mesh { thing: format!("garment {name:?}"), error }.at(place)
         })?;
+        self.check_contact_thickness(&file.fabric, &name, mesh.total_material_area())?;
         let two_sided = file.two_sided.unwrap_or_else(|| !obj.has_seams());
         let contact_thickness = Some(self.contact_thickness(&file.fabric));
         Ok(Garment { name, mesh, fabric, contact_thickness, sizing, view, two_sided })

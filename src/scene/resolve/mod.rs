@@ -19,6 +19,7 @@ use super::error::{LoadError, Problem};
 use super::native::{SHOT_VERSION, ShotFile, ViewFile, stages};
 use super::source::{Reader, joined};
 use super::{Contact, Handle, Pose, Scene, Surface, ViewSettings};
+use fabric::CONTACT_THICKNESS_LIMIT;
 use limit::{Limit, check, out_of_range};
 
 pub(super) use camera::CameraRequest;
@@ -132,7 +133,7 @@ impl<'a> Resolver<'a> {
             ("first_frame".to_owned(), file.first_frame as f64, FIRST_FRAME_LIMIT),
             ("air.density".to_owned(), file.air.density, Limit::AtLeastZero),
             ("air.tangential_drag".to_owned(), file.air.tangential_drag, Limit::AtLeastZero),
-            ("contact.thickness".to_owned(), file.contact.thickness, Limit::Positive),
+            ("contact.thickness".to_owned(), file.contact.thickness, CONTACT_THICKNESS_LIMIT),
             ("contact.stiffness".to_owned(), file.contact.stiffness, Limit::Positive),
             ("contact.friction_cloth".to_owned(), file.contact.friction_cloth, Limit::AtLeastZero),
             (
