@@ -130,7 +130,7 @@ impl Sweep {
 }
 
 /// A corner of the first feature and one of the second.
-fn corner_pairs(features: Features) -> &'static [(usize, usize)] {
+pub(super) fn corner_pairs(features: Features) -> &'static [(usize, usize)] {
     match features {
         Features::VertexFace => &[(0, 1), (0, 2), (0, 3)],
         Features::EdgeEdge => &[(0, 2), (0, 3), (1, 2), (1, 3)],

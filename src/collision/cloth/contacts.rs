@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::layers::{Layers, weighted};
 use super::pairs::{ClothPair, are_apart};
-use crate::collision::continuous::{Features, nearest};
+use crate::collision::continuous::{Features, corner_pairs, nearest};
 use crate::collision::proximity::{Cloth, is_active};
 use crate::collision::topology::Topology;
 use crate::dynamics::ContactPoint;
@@ -45,8 +45,12 @@ fn contact(
 ) -> Option<ContactPoint> {
     let nodes = pair.nodes(topology);
     let place = |k: usize| cloth.position[nodes[k]];
-    let way = |k: usize| (cloth.velocity[nodes[k]] - cloth.velocity[nodes[0]]).length_squared();
-    let reach = settings.thickness + duration * way(1).max(way(2)).max(way(3)).sqrt();
+    // No two points of the features close faster than the fastest two corners.
+    let speed_squared = |&(i, j): &(usize, usize)| {
+        (cloth.velocity[nodes[i]] - cloth.velocity[nodes[j]]).length_squared()
+    };
+    let fastest = corner_pairs(pair.features).iter().map(speed_squared).fold(0.0, f64::max);
+    let reach = settings.thickness + duration * fastest.sqrt();
     let places = [0, 1, 2, 3].map(place);
     if are_apart(pair.features, places, places, reach) {
         return None;

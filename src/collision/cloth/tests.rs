@@ -398,3 +398,59 @@ fn the_guard_follows_edits_and_refuses_what_would_cross() {
     assert!(guard.allows(&edit(&[above], &[through])), "the floor is elsewhere");
     assert!(!guard.allows(&edit(&[above], &[through.map(|p| p - 0.99 * DVec3::Z)])));
 }
+
+#[test]
+fn the_guard_tells_a_lining_from_the_shell_that_it_lies_on() {
+    let floor = [DVec3::ZERO, DVec3::X * 4.0, DVec3::Y * 4.0];
+    let at = |z: [f64; 3]| {
+        let corners =
+            [DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.5, 1.0, 0.0), DVec3::new(1.0, 1.5, 0.0)];
+        [0, 1, 2].map(|k| corners[k] + DVec3::Z * z[k])
+    };
+    let (above, through) = (at([0.1; 3]), at([-0.1, 0.1, 0.1]));
+    let guard = ClothGuard::new(vec![floor, floor, above]);
+    let edit = |old: &[[DVec3; 3]], new: &[[DVec3; 3]]| Change {
+        old_faces: old.to_vec(),
+        new_faces: new.to_vec(),
+    };
+    assert!(!guard.allows(&edit(&[floor], &[through])), "the other floor stays");
+    assert!(guard.allows(&edit(&[floor, floor], &[through])));
+    let lower = floor.map(|p| p - DVec3::Z);
+    guard.note(&edit(&[floor], &[lower]));
+    assert!(!guard.allows(&edit(&[above], &[through])), "one floor is where it was");
+    guard.note(&edit(&[floor], &[lower]));
+    assert!(guard.allows(&edit(&[above], &[through])), "both floors are elsewhere");
+    guard.note(&edit(&[lower, lower], &[]));
+    assert!(guard.allows(&edit(&[above], &[at([-1.1, 0.1, 0.1])])), "no floor is left");
+}
+
+/// Along their ends that are near, edges close at the sum of both speeds, though each end is no faster
+/// against the first one than half of that.
+#[test]
+fn edges_that_swing_towards_each_other_are_contacts_in_time() {
+    const SPEED: f64 = 10.0;
+    let way = SPEED * DT;
+    let height = SETTINGS.thickness + 1.5 * way;
+    let triangle = |corners: [[f64; 2]; 3], z: f64| {
+        let raw = RawMesh {
+            positions: corners.map(|u| DVec2::from(u).extend(z)).to_vec(),
+            vertices: (0..).zip(corners.map(DVec2::from)).collect(),
+            faces: vec![[0, 1, 2]],
+            ..RawMesh::default()
+        };
+        Mesh::from_raw(&raw, &[]).unwrap()
+    };
+    let lower = triangle([[-1.0, 0.0], [0.02, 0.0], [-0.5, 1.0]], 0.0);
+    let upper = triangle([[0.0, -0.02], [0.0, 1.0], [-1.0, 0.5]], height);
+    let mut scene = Scene::new(&[lower, upper]);
+    scene.velocity[1] = DVec3::Z * SPEED;
+    scene.velocity[3] = DVec3::NEG_Z * SPEED;
+    let is_of_edges = |c: &ContactPoint| {
+        let mut nodes = c.nodes.map(|(node, _)| node);
+        nodes.sort_unstable();
+        nodes == [0, 1, 3, 4]
+    };
+    assert_eq!(scene.contacts().iter().filter(|c| is_of_edges(c)).count(), 1);
+    scene.velocity[1] = DVec3::ZERO;
+    assert_eq!(scene.contacts().iter().filter(|c| is_of_edges(c)).count(), 0);
+}

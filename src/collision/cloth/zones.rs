@@ -17,6 +17,9 @@ use crate::math::DisjointSets;
 /// Rounds; where it takes more, as along a chain of layers, what is left is reported.
 const ROUNDS_MAX: usize = 48;
 
+/// Of where a node is and goes: what rounding makes of ways that are the same.
+const ROUNDING: f64 = 1e-12;
+
 /// Groups of nodes that move as one.
 pub(in crate::collision) struct Zones {
     sets: DisjointSets,
@@ -54,7 +57,12 @@ impl Zones {
         for _ in 0..ROUNDS_MAX {
             let mut changed = Vec::new();
             let mut left = 0;
-            for impact in search.impacts(cloth, among.as_deref()) {
+            // What meets within one zone has not passed through itself: the zone goes as a rigid body,
+            // and what touches in it touched before, or the chords of a turning carrier come nearer
+            // than its arcs.
+            let met = search.impacts(cloth, among.as_deref());
+            debug_assert!(met.iter().all(|impact| self.goes_as_one(cloth, &impact.nodes)));
+            for impact in met {
                 self.join(&impact.nodes, &mut changed);
             }
             for impact in of_obstacles(cloth, among.as_deref()) {
@@ -83,6 +91,18 @@ impl Zones {
             among = Some(self.place(cloth, obstacles, &changed));
         }
         search.impacts(cloth, None).len() + of_obstacles(cloth, None).len()
+    }
+
+    /// Whether nodes are in several zones, or in one and go the same way. On a carrier they are taken to:
+    /// where it turns, each has a way of its own.
+    fn goes_as_one(&mut self, cloth: &MovedCloth<'_>, nodes: &[usize]) -> bool {
+        let zone = self.sets.root(nodes[0]);
+        if self.carrier[zone].is_some() || nodes.iter().any(|&n| self.sets.root(n) != zone) {
+            return true;
+        }
+        let way = |n: usize| cloth.position[n] - cloth.position_at_start[n];
+        let size = way(nodes[0]).length() + cloth.position[nodes[0]].length();
+        nodes.iter().all(|&n| way(n).distance(way(nodes[0])) <= ROUNDING * size)
     }
 
     /// Makes one zone of several nodes'.
