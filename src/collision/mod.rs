@@ -27,11 +27,11 @@ mod shape;
 mod stop;
 mod topology;
 
-pub use cloth::{ClothContact, ClothGuard, Crossing, WayBounds, crossings};
+pub use cloth::{ClothContact, ClothGuard, Crossing, WayBounds, crossing_pairs, crossings};
 pub use continuous::{Features, FirstTouch, Sweep};
 pub use contour::{
-    Cut, Limits, Method, Round, TangledCloth, Untangling, cuts, lift_cuts, stop_at_crossings,
-    untangle,
+    Cut, CutNodes, Limits, Method, Round, TangledCloth, Untangling, contour_count, cuts, lift_cuts,
+    stop_at_crossings, untangle,
 };
 pub use face_tree::{FaceTree, Touch};
 pub use guard::ObstacleGuard;

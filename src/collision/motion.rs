@@ -228,13 +228,21 @@ impl ObstacleMotion {
 
     /// Whether a triangle crosses the surface at the end of the step.
     pub fn is_crossed_at_end(&self, triangle: [DVec3; 3]) -> bool {
+        self.near_in_own_at_end(triangle).is_some_and(|own| self.shape_at_end.is_crossed_by(own))
+    }
+
+    /// How many triangles of the surface a triangle crosses at the end of the step.
+    pub fn crossing_count_at_end(&self, triangle: [DVec3; 3]) -> usize {
+        let own = self.near_in_own_at_end(triangle);
+        own.map_or(0, |own| self.shape_at_end.crossing_count(own))
+    }
+
+    /// A triangle in the obstacle's own space; `None` if its box is apart from the surface's.
+    fn near_in_own_at_end(&self, triangle: [DVec3; 3]) -> Option<[DVec3; 3]> {
         let around = bounds(&triangle);
         let apart = around.mins.cmpgt(self.bounds_at_end.maxs).any()
             || self.bounds_at_end.mins.cmpgt(around.maxs).any();
-        !apart
-            && self
-                .shape_at_end
-                .is_crossed_by(triangle.map(|p| self.own_from_end.transform_point3(p)))
+        (!apart).then(|| triangle.map(|p| self.own_from_end.transform_point3(p)))
     }
 
     /// The middle of where a triangle crosses the surface at the end of the step; `None` if it does

@@ -189,6 +189,12 @@ impl Shape {
             .any(|other| triangles_cross(triangle, self.corners(other)))
     }
 
+    /// How many triangles of the surface a triangle crosses.
+    pub fn crossing_count(&self, triangle: [DVec3; 3]) -> usize {
+        let is_crossed = |other: &u32| triangles_cross(triangle, self.corners(*other));
+        self.tree.intersect_aabb(&bounds(&triangle)).filter(is_crossed).count()
+    }
+
     /// The mean of the places where edges of a triangle pass through the surface, and edges of the
     /// surface through the triangle; `None` if none does.
     pub fn middle_of_cut(&self, triangle: [DVec3; 3]) -> Option<DVec3> {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::SimError;
+use crate::collision::Resolution;
 use crate::mesh::Mesh;
 use crate::scene::{Pose, Scene, Surface};
 
@@ -77,7 +78,8 @@ pub struct FrameReport {
     pub view_factor_min: f64,
     /// Weighted by material area.
     pub view_factor_mean: f64,
-    /// Edges of cloth that pass through faces of cloth at the end of the frame; `None` unless counted.
+    /// Pairs of triangles that intersect at the end of the frame: of cloth with cloth, and of cloth with
+    /// obstacles. `None` where cloth may pass through cloth.
     pub intersections: Option<usize>,
     /// Steps taken; more than asked for where steps were halved.
     pub steps_taken: u32,
@@ -94,11 +96,14 @@ pub struct FrameReport {
 }
 
 impl FrameReport {
-    /// Says in how many places cloth could not be stopped.
-    pub(super) fn warn_of_passing(&mut self, places: usize) {
-        if places > 0 {
+    /// Takes in what leading cloth out of obstacles did, and says in how many places it could not be
+    /// stopped.
+    pub(super) fn note(&mut self, done: Resolution) {
+        self.counts.impacts += done.impacts as u64;
+        if done.unresolved > 0 {
             self.warnings.push(format!(
-                "cloth passes through obstacles or cloth in {places} places that leave it no way out"
+                "cloth passes through obstacles or cloth in {} places that leave it no way out",
+                done.unresolved
             ));
         }
     }

@@ -34,7 +34,7 @@ pub use trial::TrialStep;
 use std::sync::Arc;
 
 use crate::collision::{
-    ClothContact, Depth, FaceTree, NearMemory, ObstacleMotion, Obstacles, trapped_nodes,
+    ClothContact, Depth, FaceTree, NearMemory, ObstacleMotion, Obstacles, Resolution,
 };
 use crate::dynamics::{StepState, System};
 use crate::mesh::{FaceId, IdVec, Mesh};
@@ -53,7 +53,7 @@ pub struct Simulation {
     cloth: MovingCloth,
     anchors: Anchors,
     frame: u32,
-    /// Crossings of cloth with cloth at the last published frame, where these are counted.
+    /// Of the last published frame, see [`FrameReport`]; 0 where they are not counted.
     intersections: usize,
 }
 
@@ -193,20 +193,22 @@ impl Simulation {
     }
 
     /// Cloth that is inside an obstacle, however deep, is led out once a frame: where a coarse face
-    /// had sagged into one, a split makes nodes there. Counts what cannot be led out.
+    /// had sagged into one, a split makes nodes there.
     fn clear_obstacles(&mut self, report: &mut FrameReport) {
+        report.note(self.led_out_of_obstacles());
+    }
+
+    fn led_out_of_obstacles(&mut self) -> Resolution {
         if self.obstacles.is_empty() || !self.scene.stages.collision {
-            return;
+            return Resolution::default();
         }
         let obstacles = self.obstacles_at_rest();
         let start = self.cloth.state.position.clone();
         let done = self.cloth.lead_out(&start, &obstacles, &self.scene.contact, Depth::Any);
-        report.counts.impacts += done.impacts as u64;
-        report.warn_of_passing(done.unresolved);
         if done.impacts > 0 {
             self.cloth.write_back(&mut self.garments);
         }
-        report.trapped_nodes = trapped_nodes(&self.cloth.state.position, &obstacles);
+        done
     }
 
     pub fn scene(&self) -> &Arc<Scene> {

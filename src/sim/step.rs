@@ -190,8 +190,7 @@ impl Simulation {
                 &self.scene.contact,
                 Depth::OfTheStep,
             );
-            report.counts.impacts += done.impacts as u64;
-            report.warn_of_passing(done.unresolved);
+            report.note(done);
         } else {
             self.cloth.refit();
         }

@@ -9,8 +9,9 @@ use super::clock::{Stage, StageClock};
 use super::frame::FrameReport;
 use super::{MovingCloth, Simulation};
 use crate::collision::{
-    Crossing, Cut, Depth, Limits, Method, ObstacleMotion, TangledCloth, Untangling, crossings,
-    cuts, lift_cuts, stop_at_crossings, trapped_nodes, untangle,
+    Crossing, Cut, CutNodes, Depth, Limits, Method, ObstacleMotion, Resolution, TangledCloth,
+    Untangling, contour_count, crossing_pairs, crossings, cuts, lift_cuts, stop_at_crossings,
+    trapped_nodes, untangle,
 };
 
 /// Of an edge against a face in a round, in contact thicknesses: layers that are that near are about to
@@ -61,7 +62,7 @@ impl Simulation {
         report.warnings.clear();
     }
 
-    /// Takes apart what passes through cloth or obstacles, and counts what is left.
+    /// Takes apart what passes through cloth or obstacles, and counts what is left in the end.
     pub(super) fn untangle(
         &mut self,
         moment: Moment,
@@ -69,14 +70,41 @@ impl Simulation {
         report: &mut FrameReport,
     ) {
         clock.time(Stage::Untangle, || {
-            let cuts_left = self.clear_cuts(report);
-            if cuts_left > 0 {
-                report.warnings.push(format!("{cuts_left} faces of cloth cut obstacles"));
+            let stages = self.scene.stages;
+            let obstacles = self.obstacles_at_rest();
+            let mut cuts = self.cloth.cuts(&obstacles);
+            if stages.collision && stages.untangling && free_count(&cuts) > 0 {
+                cuts = self.lift_off_obstacles(cuts, &obstacles, report);
             }
-            if self.scene.stages.self_contact {
-                self.untangle_cloth(moment, report);
-            }
+            let crossings = stages.self_contact.then(|| {
+                let found = self.cloth.crossings();
+                if found.is_empty() || !stages.untangling {
+                    return found;
+                }
+                let left = self.untangle_cloth(found, moment, report);
+                cuts = self.cloth.cuts(&obstacles);
+                left
+            });
+            self.count_what_is_left(&cuts, crossings.as_deref(), report);
+            report.trapped_nodes = trapped_nodes(&self.cloth.state.position, &obstacles);
         });
+    }
+
+    fn count_what_is_left(
+        &mut self,
+        cuts: &[Cut],
+        crossings: Option<&[Crossing]>,
+        report: &mut FrameReport,
+    ) {
+        let free = free_count(cuts);
+        if free > 0 {
+            report.warnings.push(format!("{free} faces of cloth cut obstacles"));
+        }
+        let pairs_of_cuts: usize = cuts.iter().map(|cut| cut.triangle_count).sum();
+        let topology = self.cloth.tree.topology();
+        report.intersections =
+            crossings.map(|found| crossing_pairs(topology, found).len() + pairs_of_cuts);
+        self.intersections = report.intersections.unwrap_or(0);
     }
 
     /// Has contact leave alone what passes through other cloth, so that it can come back.
@@ -85,43 +113,45 @@ impl Simulation {
             return;
         }
         let cloth = &mut self.cloth;
-        let found = crossings(&cloth.tree, &cloth.state.position);
+        let found = cloth.crossings();
         if let Some(own) = &mut cloth.own {
             own.let_go_of(&cloth.tree, &found);
         }
     }
 
-    fn untangle_cloth(&mut self, moment: Moment, report: &mut FrameReport) {
-        let found = crossings(&self.cloth.tree, &self.cloth.state.position);
-        let count = found.len();
-        report.intersections = Some(count);
-        self.intersections = count;
-        if count == 0 || !self.scene.stages.untangling {
-            return;
-        }
+    /// Returns the crossings left of those found, and says how many, unless none is.
+    fn untangle_cloth(
+        &mut self,
+        found: Vec<Crossing>,
+        moment: Moment,
+        report: &mut FrameReport,
+    ) -> Vec<Crossing> {
         let before = self.cloth.state.clone();
         let limits = self.limits(moment);
-        let done = self.cloth.untangle(found, limits);
-        let mut left = done.left.len();
+        let mut left = self.cloth.untangle(found.clone(), limits).left;
         // What was moved may have come into an obstacle.
+        let mut led_out = Resolution::default();
         if self.scene.stages.collision && !self.obstacles.is_empty() {
-            self.clear_obstacles(report);
-            left = crossings(&self.cloth.tree, &self.cloth.state.position).len();
+            led_out = self.led_out_of_obstacles();
+            left = self.cloth.crossings();
         }
-        if left > count {
+        let count = found.len();
+        if left.len() > count {
             self.cloth.state = before;
             self.cloth.refit();
-            left = count;
+            left = found;
+        } else {
+            report.note(led_out);
         }
         self.cloth.write_back(&mut self.garments);
-        report.intersections = Some(left);
-        self.intersections = left;
-        if left > 0 {
+        if !left.is_empty() {
+            let contours = contour_count(&self.cloth.tree, &self.cloth.state.position, &left);
             report.warnings.push(format!(
-                "cloth passes through cloth: {left} of {count} crossings are left, in {} contours",
-                done.contours_left
+                "cloth passes through cloth: {} of {count} crossings are left, in {contours} contours",
+                left.len()
             ));
         }
+        left
     }
 
     fn limits(&self, moment: Moment) -> Limits {
@@ -143,43 +173,49 @@ impl Simulation {
         }
     }
 
-    /// Lifts faces off obstacles that they cut; returns how many still do.
-    fn clear_cuts(&mut self, report: &mut FrameReport) -> usize {
-        let stages = &self.scene.stages;
-        if self.obstacles.is_empty() || !stages.collision || !stages.untangling {
-            return 0;
-        }
-        let obstacles = self.obstacles_at_rest();
+    /// Lifts faces off obstacles that they cut; returns which still do, in the best state of all rounds.
+    fn lift_off_obstacles(
+        &mut self,
+        mut found: Vec<Cut>,
+        obstacles: &[ObstacleMotion],
+        report: &mut FrameReport,
+    ) -> Vec<Cut> {
         let settings = self.scene.contact;
         let cloth = &mut self.cloth;
-        let mut found = cloth.cuts(&obstacles);
-        if found.is_empty() {
-            return 0;
-        }
-        let mut best = (found.len(), cloth.state.clone());
+        let mut best = (found.clone(), cloth.state.clone(), Resolution::default());
+        let mut done = Resolution::default();
         let mut since_best = 0;
         for _ in 0..CUT_ROUNDS_MAX {
             let start = cloth.state.position.clone();
             let step = CUT_STEP_IN_THICKNESSES * settings.thickness;
-            lift_cuts(&mut cloth.moved(&start), &found, &obstacles, &settings, step);
+            lift_cuts(&mut cloth.moved(&start), &found, obstacles, &settings, step);
             let start = cloth.state.position.clone();
-            cloth.lead_out(&start, &obstacles, &settings, Depth::Any);
-            found = cloth.cuts(&obstacles);
+            let round = cloth.lead_out(&start, obstacles, &settings, Depth::Any);
+            done.impacts += round.impacts;
+            // Each round goes on from the one before it: what passed then has passed.
+            done.unresolved = done.unresolved.max(round.unresolved);
+            found = cloth.cuts(obstacles);
             since_best += 1;
-            if found.len() < best.0 {
-                best = (found.len(), cloth.state.clone());
+            if free_count(&found) < free_count(&best.0) {
+                best = (found.clone(), cloth.state.clone(), done);
                 since_best = 0;
             }
-            if found.is_empty() || since_best == CUT_PATIENCE {
+            if free_count(&found) == 0 || since_best == CUT_PATIENCE {
                 break;
             }
         }
-        cloth.state = best.1;
+        let (left, state, done) = best;
+        report.note(done);
+        cloth.state = state;
         cloth.refit();
         cloth.write_back(&mut self.garments);
-        report.trapped_nodes = trapped_nodes(&self.cloth.state.position, &obstacles);
-        best.0
+        left
     }
+}
+
+/// Cuts that can be lifted off.
+fn free_count(cuts: &[Cut]) -> usize {
+    cuts.iter().filter(|cut| cut.nodes == CutNodes::Free).count()
 }
 
 impl MovingCloth {
@@ -196,6 +232,10 @@ impl MovingCloth {
             flat_lengths: &flat_lengths,
         };
         untangle(&mut tangled, found, Method::Contours, limits)
+    }
+
+    fn crossings(&self) -> Vec<Crossing> {
+        crossings(&self.tree, &self.state.position)
     }
 
     fn cuts(&self, obstacles: &[ObstacleMotion]) -> Vec<Cut> {

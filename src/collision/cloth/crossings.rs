@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use crate::collision::face_tree::FaceTree;
 use crate::collision::nearest::bounds;
+use crate::collision::topology::Topology;
 use crate::math::segment_passes_through;
 
 /// An edge that passes through a face.
@@ -36,4 +37,20 @@ pub fn crossings(tree: &FaceTree, positions: &[DVec3]) -> Vec<Crossing> {
         found
     };
     (0..topology.edges().len()).into_par_iter().with_min_len(256).flat_map_iter(of_edge).collect()
+}
+
+/// Pairs of faces of which an edge of one passes through the other, the smaller number first; in order,
+/// each once. `found` are all crossings.
+pub fn crossing_pairs(topology: &Topology, found: &[Crossing]) -> Vec<[u32; 2]> {
+    let mut pairs: Vec<[u32; 2]> = Vec::with_capacity(2 * found.len());
+    for crossing in found {
+        let edge = topology.edges()[crossing.edge as usize];
+        for side in [Some(edge.first), edge.second].into_iter().flatten() {
+            let (face, through) = (side.triangle, crossing.face);
+            pairs.push([face.min(through), face.max(through)]);
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
 }

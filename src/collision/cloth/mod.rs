@@ -17,7 +17,7 @@ mod tangled;
 mod zones;
 
 pub use bounds::WayBounds;
-pub use crossings::{Crossing, crossings};
+pub use crossings::{Crossing, crossing_pairs, crossings};
 pub use guard::ClothGuard;
 pub(super) use stop::{ClothSearch, stop_cloth};
 pub(super) use zones::Zones;

@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::point::CrossingPoint;
+use crate::collision::cloth::Crossing;
+use crate::collision::face_tree::FaceTree;
 use crate::collision::topology::Topology;
 
 /// Which of the two layers that cross along a contour an edge belongs to. The names mean nothing
@@ -76,6 +78,13 @@ pub fn contours(
     }
     found.sort_by_key(|c| c.points.iter().map(|p| p.0).min());
     found
+}
+
+/// How many contours crossings form.
+pub fn contour_count(tree: &FaceTree, positions: &[DVec3], found: &[Crossing]) -> usize {
+    let point = |c: &Crossing| CrossingPoint::of(tree.topology(), positions, *c);
+    let points: Vec<CrossingPoint> = found.iter().filter_map(point).collect();
+    contours(tree.topology(), positions, &points).len()
 }
 
 struct Pieces<'a> {

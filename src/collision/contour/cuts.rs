@@ -19,28 +19,42 @@ pub struct Cut {
     /// Number of the obstacle.
     pub obstacle: usize,
     pub face: u32,
+    /// Triangles of the obstacle that the face crosses, at least 1.
+    pub triangle_count: usize,
+    pub nodes: CutNodes,
 }
 
-/// All faces that cross an obstacle at the end of its step, in the order of obstacles and faces. Those
-/// with a node inside an obstacle are left out: while the node is trapped, the face is.
+/// Where the nodes of a cut face are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CutNodes {
+    /// All outside of every obstacle.
+    Free,
+    /// One or more inside an obstacle: while the node is trapped, the face is.
+    Trapped,
+}
+
+/// All faces that cross an obstacle at the end of its step, in the order of obstacles and faces.
 pub fn cuts(positions: &[DVec3], faces: &[[u32; 3]], obstacles: &[ObstacleMotion]) -> Vec<Cut> {
-    let is_free = |face: &[u32; 3]| {
-        let is_outside =
-            |n: &u32| !obstacles.iter().any(|o| o.contains_at_end(positions[*n as usize]));
-        face.iter().all(is_outside)
-    };
+    let is_inside = |n: &u32| obstacles.iter().any(|o| o.contains_at_end(positions[*n as usize]));
     let of = |(number, obstacle): (usize, &ObstacleMotion)| {
-        let is_cut = |face: &[u32; 3]| {
-            obstacle.is_crossed_at_end(face.map(|n| positions[n as usize])) && is_free(face)
+        let cut = |(index, face): (usize, &[u32; 3])| {
+            let triangle_count =
+                obstacle.crossing_count_at_end(face.map(|n| positions[n as usize]));
+            (triangle_count > 0).then(|| {
+                let nodes = match face.iter().any(is_inside) {
+                    true => CutNodes::Trapped,
+                    false => CutNodes::Free,
+                };
+                Cut { obstacle: number, face: index as u32, triangle_count, nodes }
+            })
         };
         let numbered = faces.par_iter().enumerate().with_min_len(64);
-        let cut = numbered.filter(|(_, face)| is_cut(face));
-        cut.map(|(face, _)| Cut { obstacle: number, face: face as u32 }).collect::<Vec<_>>()
+        numbered.filter_map(cut).collect::<Vec<_>>()
     };
     obstacles.iter().enumerate().flat_map(of).collect()
 }
 
-/// Lifts each cut face out by the nearest way, by `step` (m) at most; the cloth's approach ends there.
+/// Lifts each cut face whose nodes are free out by the nearest way, by `step` (m) at most; the cloth's approach ends there.
 /// One after the other: what an earlier one did for a later one counts.
 pub fn lift_cuts(
     cloth: &mut MovedCloth<'_>,
@@ -50,7 +64,7 @@ pub fn lift_cuts(
     step: f64,
 ) {
     let floor = FLOOR_IN_THICKNESSES * settings.thickness;
-    for cut in found {
+    for cut in found.iter().filter(|cut| cut.nodes == CutNodes::Free) {
         let obstacle = &obstacles[cut.obstacle];
         let nodes = cloth.faces[cut.face as usize].map(|n| n as usize);
         let corners = nodes.map(|n| cloth.position[n]);

@@ -17,7 +17,8 @@ mod regions;
 mod rounds;
 mod stop;
 
-pub use cuts::{Cut, cuts, lift_cuts};
+pub use contours::contour_count;
+pub use cuts::{Cut, CutNodes, cuts, lift_cuts};
 pub use moves::Method;
 pub use rounds::{Limits, Round, TangledCloth, Untangling, untangle};
 pub use stop::stop_at_crossings;
