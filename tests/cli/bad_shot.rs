@@ -43,6 +43,16 @@ fn values_of_the_wrong_kind_and_wrong_names_are_answered_with_the_place() {
         ("\"fabric\": \"cotton\"", "\"fabric\": \"coton\"", &["shot.json:8:40", "\"cotton\""]),
         ("\"motion\": \"rise\"", "\"motion\": \"raise\"", &["shot.json:14:51", "\"rise\""]),
         ("\"shotsilk\": 1", "\"shotsilk\": 2", &["shot.json:2:17", "version 2", "version 1"]),
+        (
+            "\"fps\": 24",
+            "\"view\": {\"nu_out\": null}",
+            &["shot.json:3:24", "a number, found null"],
+        ),
+        (
+            "\"edge_length_min\": 0.1",
+            "\"aspect_min\": null",
+            &["shot.json:9:34", "a number, found null"],
+        ),
     ] {
         refused_after("shot.json", from, to, parts);
     }

@@ -153,6 +153,7 @@ pub struct SizingFile {
     pub edge_length_max: Option<f64>,
     /// Least aspect of a triangle and least ratio of the edge lengths asked for, above 0 and up to
     /// 1. Default 0.2. Larger: rounder triangles, more of them.
+    #[serde(deserialize_with = "given", skip_serializing_if = "Option::is_none")]
     pub aspect_min: Option<f64>,
 }
 
@@ -174,32 +175,47 @@ fn null_is_infinite<'de, D: Deserializer<'de>>(source: D) -> Result<Option<f64>,
     Ok(Some(Option::<f64>::deserialize(source)?.unwrap_or(f64::INFINITY)))
 }
 
+/// What is said is a value: `null` would be taken for "off" or "infinite" by some, for the default by
+/// others.
+fn given<'de, T: Deserialize<'de>, D: Deserializer<'de>>(source: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(source).map(Some)
+}
+
 /// How the view coarsens cloth; only what is named differs from the shot's own setting.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ViewFile {
     /// View factor of what faces the camera, above 0 and up to 1; edge lengths grow by its
     /// inverse. Default 1.
+    #[serde(deserialize_with = "given", skip_serializing_if = "Option::is_none")]
     pub nu_front: Option<f64>,
     /// View factor of the far side of a garment that is not two-sided. Default 0.2.
+    #[serde(deserialize_with = "given", skip_serializing_if = "Option::is_none")]
     pub nu_back: Option<f64>,
     /// View factor far outside the frame. Default 0.01; 0.1 is safer for layered garments.
+    #[serde(deserialize_with = "given", skip_serializing_if = "Option::is_none")]
     pub nu_out: Option<f64>,
     /// Width of the fall-off from the frame's edge to `nu_out` (m, world). Default 0.4; 0 is a
     /// hard edge.
+    #[serde(deserialize_with = "given", skip_serializing_if = "Option::is_none")]
     pub margin_m: Option<f64>,
     /// How many frames ahead refinement begins. Default 5; 0 looks only at the present, and cloth
     /// pops as it comes into frame.
+    #[serde(deserialize_with = "given", skip_serializing_if = "Option::is_none")]
     pub anticipation_frames: Option<f64>,
     /// Shortest edge worth having on the image (pixels of the shot's own resolution). Default 4;
     /// 0 switches the limit off.
+    #[serde(deserialize_with = "given", skip_serializing_if = "Option::is_none")]
     pub min_screen_edge_px: Option<f64>,
     /// Exponent of the buckling compensation outside the frame. Default 10; 0 switches it off.
+    #[serde(deserialize_with = "given", skip_serializing_if = "Option::is_none")]
     pub buckling_exponent: Option<f64>,
     /// Difference of view factor across an edge above which the hidden face is resampled.
     /// Default 0.1.
+    #[serde(deserialize_with = "given", skip_serializing_if = "Option::is_none")]
     pub silhouette_threshold: Option<f64>,
     /// What the time window anticipates: `whole-metric` or, to reproduce the papers, `papers`.
+    #[serde(deserialize_with = "given", skip_serializing_if = "Option::is_none")]
     pub rule: Option<ViewRule>,
 }
 
