@@ -6,11 +6,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec3;
-use shotsilk::collision::Obstacles;
+use shotsilk::collision::{Obstacles, Shape};
 use shotsilk::math::{closest_point_on_triangle, triangles_cross};
 use shotsilk::mesh::{FaceId, Mesh};
 use shotsilk::scene::{FileSystem, LoadOptions, LoadedShot, Scene, load};
-use shotsilk::sim::{SimSettings, Simulation, SizingMode};
+use shotsilk::sim::{Frame, SimSettings, Simulation, SizingMode};
+use shotsilk::stability::watch::{crossing_pairs, cut_faces};
 
 /// How far a point of a foot moves at most in a frame (m): a trained kick reaches 9 m/s.
 const MOVE_MAX: f64 = 0.36;
@@ -21,12 +22,20 @@ const SINK_MAX: f64 = 0.006;
 /// As far as the first kick, and as coarse as the mesh can be (m).
 const FRAMES: u32 = 40;
 const EDGE_LENGTH: f64 = 0.3;
+/// Of those sized for the view.
+const VIEW_FRAMES: u32 = 10;
 /// The shoulders carry the jacket; nothing is pulled further than that.
 const STRETCH_MAX: f64 = 0.3;
 
 fn loaded() -> LoadedShot {
+    loaded_with(&[])
+}
+
+fn loaded_with(sets: &[&str]) -> LoadedShot {
+    let sets = sets.iter().map(|set| (*set).to_owned()).collect();
     let shot = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/layered/layered.json");
-    load(&LoadOptions { shot, ..LoadOptions::default() }, &FileSystem).expect("the shot loads")
+    load(&LoadOptions { shot, sets, ..LoadOptions::default() }, &FileSystem)
+        .expect("the shot loads")
 }
 
 fn corners(mesh: &Mesh, face: FaceId) -> [DVec3; 3] {
@@ -135,4 +144,33 @@ fn as_coarse_as_it_is_sewn_the_outfit_moves_without_passing_through_itself() {
         assert_eq!(report.trapped_nodes, 0, "frame {number}");
         assert!(report.largest_stretch < STRETCH_MAX, "frame {number}: {}", report.largest_stretch);
     }
+}
+
+/// With the coarseness of the shot, and with ten times that of what nobody sees.
+#[test]
+fn sized_for_the_view_the_outfit_passes_through_neither_itself_nor_the_figure() {
+    for nu_out in ["0.1", "0.01"] {
+        let scene = Arc::new(loaded_with(&[&format!("view.nu_out={nu_out}")]).scene);
+        assert_eq!(scene.garments[0].view.nu_out.to_string(), nu_out);
+        let shapes: Vec<Shape> = scene.obstacles.iter().map(|o| Shape::new(&o.surface)).collect();
+        let settings = SimSettings { sizing: SizingMode::View };
+        let (mut simulation, first) = Simulation::start(scene, settings).expect("it starts");
+        assert_passes_through_nothing(&first, &shapes);
+        for _ in 0..VIEW_FRAMES {
+            let frame = simulation.advance().expect("it can be simulated");
+            assert_passes_through_nothing(&frame, &shapes);
+        }
+    }
+}
+
+/// As judges say that know nothing of contact, and as the frame itself says.
+#[track_caller]
+fn assert_passes_through_nothing(frame: &Frame, shapes: &[Shape]) {
+    let (report, number) = (&frame.report, frame.number);
+    assert_eq!(crossing_pairs(&frame.garments), 0, "frame {number}");
+    assert_eq!(cut_faces(frame, shapes), 0, "frame {number}");
+    assert_eq!(report.intersections, Some(0), "frame {number}");
+    assert_eq!(report.trapped_nodes, 0, "frame {number}");
+    let passing = report.warnings.iter().find(|w| w.contains("pass") || w.contains("cut"));
+    assert_eq!(passing, None, "frame {number}");
 }
