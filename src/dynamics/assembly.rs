@@ -134,13 +134,13 @@ impl System {
             Some(root) => MembraneTangent::compensated(face.area, k, deformation, root),
             None => MembraneTangent::new(face.area, k, deformation),
         };
-        let Some(bounds) = &garment.strain_bounds else { return tangent };
+        let Some(limit) = &garment.strain_limit else { return tangent };
         let strain = green_strain(deformation);
         let gain = expected.map(|v| strain_rate(deformation, face.gradient_of(v)) * dt);
         let ahead = gain.map_or(strain, |gain| strain + gain);
-        match bounds.may_be_felt(ahead) {
-            true => tangent.and(&bounds.derivatives(strain, ahead)),
-            false => tangent,
+        match limit.derivatives(strain, ahead) {
+            Some(derivatives) => tangent.and(&derivatives),
+            None => tangent,
         }
     }
 

@@ -32,6 +32,7 @@ mod plate;
 pub mod principal;
 pub mod solve;
 mod step;
+pub mod strain_limit;
 pub mod stretch;
 mod system;
 #[cfg(test)]

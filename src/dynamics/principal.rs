@@ -19,7 +19,7 @@ pub struct StrainDerivatives {
     pub second: [[f64; 3]; 3],
 }
 
-/// What a strain limit does to one face: 1/2 K (lambda - bound)^2 per principal strain beyond a bound.
+/// Bounds that stiffen a face: 1/2 K (lambda - bound)^2 per principal strain beyond a bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrainBounds {
     /// Least and largest principal Green strain.

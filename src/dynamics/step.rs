@@ -165,7 +165,7 @@ impl System {
         assert_eq!(state.velocity.len(), self.node_count(), "velocities are those of the system");
         state.check_finite()?;
         let before = self.solver.counts();
-        let (end, mut outcome) = match self.iterations() {
+        let (end, mut outcome) = match self.iterations_max() {
             0 | 1 => self.linearised_step(state, forces, dt)?,
             _ => self.iterated_step(state, forces, dt)?,
         };

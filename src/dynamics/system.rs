@@ -9,9 +9,10 @@ use super::bending::{Hinge, dihedral_angle};
 use super::breakaway::Finding;
 use super::folds::FoldLaw;
 use super::matrix::{BlockMatrix, Pattern};
-use super::principal::{StrainBounds, compensated_strain};
-use super::solve::{LinearSolver, SolverCounts};
+use super::principal::compensated_strain;
+use super::solve::{LinearSolver, Patience, SolverCounts};
 use super::step::StepState;
+use super::strain_limit::StrainLimit;
 use super::stretch::{Membrane, energy_density};
 use crate::math::SymTensor2;
 use crate::mesh::{CornerId, FaceId, Id, Mesh};
@@ -57,7 +58,7 @@ pub(super) struct GarmentRanges {
     pub membranes: Range<usize>,
     pub hinges: Range<usize>,
     /// What resists strain beyond the fabric's limits.
-    pub strain_bounds: Option<StrainBounds>,
+    pub strain_limit: Option<StrainLimit>,
     /// What the hinges' moments are if not each hinge's own.
     pub fold_law: Option<FoldLaw>,
 }
@@ -78,14 +79,6 @@ pub(super) struct FrozenStiffness {
     /// Per hinge, d2W/dtheta2 as the matrix has it (N m).
     pub bending: Vec<f64>,
 }
-
-/// K of a strain limit (N/m): a load of 100 N/m, as of a flag in a storm, goes beyond it by 1 %.
-/// Twice as stiff costs half as much again.
-const STRAIN_LIMIT_STIFFNESS: f64 = 1e4;
-
-/// Newton iterations a step of cloth with strain limits: linearised, a limit that a face reaches
-/// or leaves within the step, or meets while it turns, is met too early, too late or not at all.
-const LIMITED_ITERATIONS: u32 = 3;
 
 impl System {
     /// A system of one fabric per mesh, its stiffness frozen at the meshes' positions.
@@ -134,11 +127,15 @@ impl System {
     pub fn set_dynamics(&mut self, settings: Dynamics) {
         self.settings = settings;
         self.solver.set_choice(settings.solver);
+        self.solver.set_patience(match self.is_limited() {
+            true => Patience::Short,
+            false => Patience::Long,
+        });
     }
 
     /// Lets fabrics be strained beyond their limits.
     pub fn lift_strain_limits(&mut self) {
-        self.garments.iter_mut().for_each(|garment| garment.strain_bounds = None);
+        self.garments.iter_mut().for_each(|garment| garment.strain_limit = None);
     }
 
     /// Takes faces for buckled between their nodes as far as 1 - alpha says, from now on; alpha is
@@ -159,10 +156,18 @@ impl System {
         self.root_alphas.clear();
     }
 
-    /// Newton iterations of a step: as set, or as many as strain limits ask for.
-    pub(super) fn iterations(&self) -> u32 {
-        let is_limited = self.garments.iter().any(|garment| garment.strain_bounds.is_some());
-        self.settings.iterations.max(if is_limited { LIMITED_ITERATIONS } else { 1 })
+    /// Whether any fabric has strain limits.
+    pub(super) fn is_limited(&self) -> bool {
+        self.garments.iter().any(|garment| garment.strain_limit.is_some())
+    }
+
+    /// Whether a face is strained far beyond a limit.
+    pub(super) fn are_limits_far_exceeded(&self, positions: &[DVec3]) -> bool {
+        let exceeds = |garment: &GarmentRanges, limit: StrainLimit| {
+            let mut faces = self.membranes[garment.membranes.clone()].iter();
+            faces.any(|face| limit.is_far_exceeded(face.strain(positions)))
+        };
+        self.garments.iter().any(|g| g.strain_limit.is_some_and(|limit| exceeds(g, limit)))
     }
 
     /// The root of a face's alpha; `None` where nothing is compensated.
@@ -267,8 +272,8 @@ impl System {
             Some(root) => compensated_strain(strain, root),
             None => strain,
         };
-        let bounds = garment.strain_bounds.map_or(0.0, |bounds| bounds.energy_density(strain));
-        energy_density(k, compensated) + bounds
+        let limit = garment.strain_limit.map_or(0.0, |limit| limit.energy_density(strain));
+        energy_density(k, compensated) + limit
     }
 
     /// (J).
@@ -325,9 +330,7 @@ impl System {
             nodes: offset..self.node_count(),
             membranes: first_membrane..self.membranes.len(),
             hinges: first_hinge..self.hinges.len(),
-            strain_bounds: fabric
-                .strain_limits()
-                .map(|ratios| StrainBounds::of_stretch(ratios, STRAIN_LIMIT_STIFFNESS)),
+            strain_limit: fabric.strain_limits().map(StrainLimit::of_stretch),
             fold_law: fabric.plate().and_then(|(plate, model)| FoldLaw::new(mesh, plate, model)),
         });
     }

@@ -69,7 +69,8 @@ impl Remesher<'_> {
         let sides = [Some(collapse.corner), mesh.opposite(collapse.corner)];
         old.extend(sides.into_iter().flatten().map(|c| mesh.face_vertices(c.face())));
         let change = Change { new_faces: in_world(mesh, &faces), old_faces: in_world(mesh, &old) };
-        let allowed = keeps_stretch(mesh, &faces, &old) && self.guard.allows(&change);
+        let allowed = keeps_stretch(mesh, &faces, &old, self.settings.stretch_allowed)
+            && self.guard.allows(&change);
         self.report.vetoes += usize::from(!allowed);
         allowed.then_some(change)
     }

@@ -76,7 +76,8 @@ impl Remesher<'_> {
         }
         let change =
             Change { new_faces: in_world(mesh, &new_faces), old_faces: in_world(mesh, &old_faces) };
-        let allowed = keeps_stretch(mesh, &new_faces, &old_faces) && self.guard.allows(&change);
+        let allowed = keeps_stretch(mesh, &new_faces, &old_faces, self.settings.stretch_allowed)
+            && self.guard.allows(&change);
         self.report.vetoes += usize::from(!allowed);
         allowed.then_some(change)
     }

@@ -29,24 +29,28 @@ impl EditGuard for NoGuard {
     }
 }
 
-/// A face that an edit makes may be stretched by this much, whatever stood there before: what
-/// cloth shows anyway.
-const STRETCH_ALWAYS_ALLOWED: f64 = 1.05;
-
-/// Whether the new faces are stretched hardly more than the old ones. Where cloth is folded, an edit
-/// that is harmless in the flat cloth can span a fold askew in the world; the next step would
-/// answer with a kick.
+/// Whether the new faces' principal stretches are within what is always allowed, or hardly beyond
+/// the old ones'. Where cloth is folded, an edit that is harmless in the flat cloth can span a fold
+/// askew in the world; the next step would answer with a kick.
 pub(super) fn keeps_stretch(
     mesh: &Mesh,
     new_faces: &[[VertexId; 3]],
     old_faces: &[[VertexId; 3]],
+    [least_allowed, most_allowed]: [f64; 2],
 ) -> bool {
-    let largest = |faces: &[[VertexId; 3]]| {
-        let stretch = |f: &[VertexId; 3]| mesh.deformation_of(*f).singular_values()[0];
-        faces.iter().map(stretch).fold(0.0, f64::max)
+    let extremes = |faces: &[[VertexId; 3]]| {
+        let stretches = faces.iter().map(|f| mesh.deformation_of(*f).singular_values());
+        stretches.fold([f64::INFINITY, 0.0_f64], |[least, most], [major, minor]| {
+            [least.min(minor), most.max(major)]
+        })
     };
-    let new = largest(new_faces);
-    new <= STRETCH_ALWAYS_ALLOWED || new <= largest(old_faces)
+    let [new_least, new_most] = extremes(new_faces);
+    if new_least >= least_allowed && new_most <= most_allowed {
+        return true;
+    }
+    let [old_least, old_most] = extremes(old_faces);
+    (new_least >= least_allowed || new_least >= old_least)
+        && (new_most <= most_allowed || new_most <= old_most)
 }
 
 /// The faces in the world.

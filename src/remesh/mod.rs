@@ -22,13 +22,33 @@ pub struct RemeshSettings {
     /// No collapse makes an edge longer than this in the metric, where 1 is the longest allowed:
     /// the slack keeps the mesh from flickering between split and collapse.
     pub collapsed_edge_max: f64,
+    /// Principal stretches, least and largest, that a collapse or flip may give a face whatever was
+    /// there before.
+    pub stretch_allowed: [f64; 2],
     /// Splitting ends, and is reported, when the mesh has this many faces.
     pub face_count_max: usize,
 }
 
+/// A stretch that cloth shows anyway. Compression is more often a fold than strain.
+const STRETCH_SHOWN: f64 = 1.05;
+
+impl RemeshSettings {
+    /// The same for a fabric whose principal stretches are to stay within ratios: no edit makes
+    /// faces beyond them.
+    pub fn within(self, [least, largest]: [f64; 2]) -> Self {
+        let [_, allowed] = self.stretch_allowed;
+        Self { stretch_allowed: [least, largest.min(allowed)], ..self }
+    }
+}
+
 impl Default for RemeshSettings {
     fn default() -> Self {
-        Self { aspect_min: 0.2, collapsed_edge_max: 0.9, face_count_max: 2_000_000 }
+        Self {
+            aspect_min: 0.2,
+            collapsed_edge_max: 0.9,
+            stretch_allowed: [0.0, STRETCH_SHOWN],
+            face_count_max: 2_000_000,
+        }
     }
 }
 

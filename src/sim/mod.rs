@@ -264,10 +264,10 @@ impl MovingCloth {
         let own =
             scene.stages.self_contact.then(|| ClothContact::new(garments, &tree, &state.position));
         let mut system = System::new(&meshes, &fabrics);
-        system.set_dynamics(scene.dynamics);
         if !scene.stages.strain_limiting {
             system.lift_strain_limits();
         }
+        system.set_dynamics(scene.dynamics);
         Self {
             system,
             tree,

@@ -160,10 +160,14 @@ impl Simulation {
     }
 
     fn remesh(&mut self, index: usize, guard: &SurfaceGuard<'_>) -> RemeshReport {
-        let settings = RemeshSettings {
-            aspect_min: self.scene.garments[index].sizing.aspect_min,
-            ..RemeshSettings::default()
-        };
+        let garment = &self.scene.garments[index];
+        let aspect_min = garment.sizing.aspect_min;
+        let mut settings = RemeshSettings { aspect_min, ..RemeshSettings::default() };
+        if self.scene.stages.strain_limiting
+            && let Some(ratios) = garment.fabric.strain_limits()
+        {
+            settings = settings.within(ratios);
+        }
         let mesh = std::mem::take(&mut self.garments[index]);
         let (mesh, report) = remesh(mesh, &settings, guard);
         self.garments[index] = mesh;

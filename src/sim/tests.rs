@@ -12,6 +12,7 @@ use crate::shot::{CameraKey, CameraPath, Lens, Track};
 
 mod frame_to_frame;
 mod layers;
+mod limits;
 mod tangles;
 
 /// A one metre sheet of two by two cells in the plane z = 0.5.

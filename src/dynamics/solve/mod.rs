@@ -35,6 +35,7 @@ pub enum SolveError {
 #[derive(Debug, Default)]
 pub struct LinearSolver {
     choice: SolverChoice,
+    patience: Patience,
     direct: DirectSolver,
     incomplete: IncompleteFactor,
     conjugate: ConjugateGradients,
@@ -55,6 +56,18 @@ struct Failures {
 /// A preconditioner that has failed so often is not tried again: one bad matrix says nothing of the
 /// next, two say it is the cloth.
 const FAILURES_MAX: u32 = 2;
+
+/// How long iterations are given a chance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Patience {
+    /// As long as a factorisation would take.
+    #[default]
+    Long,
+    /// A third of that and only once, and no factor of an earlier matrix is tried. For cloth of
+    /// which some faces are far stiffer than the rest, others in every matrix: it takes hundreds of
+    /// iterations or few.
+    Short,
+}
 
 /// What stands ready to precondition with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -111,10 +124,38 @@ const ITERATIONS_AT_5000: f64 = 100.0;
 /// which a factorisation costs eight.
 const ITERATIONS_WITH_FACTOR: usize = 8;
 
+impl Patience {
+    fn iterations_at_5000(self) -> f64 {
+        match self {
+            Patience::Long => ITERATIONS_AT_5000,
+            Patience::Short => 0.3 * ITERATIONS_AT_5000,
+        }
+    }
+
+    fn incomplete_failures_max(self) -> u32 {
+        match self {
+            Patience::Long => FAILURES_MAX,
+            Patience::Short => 1,
+        }
+    }
+
+    fn outdated_failures_max(self) -> u32 {
+        match self {
+            Patience::Long => FAILURES_MAX,
+            Patience::Short => 0,
+        }
+    }
+}
+
 impl LinearSolver {
     /// Solves as chosen from now on.
     pub fn set_choice(&mut self, choice: SolverChoice) {
         self.choice = choice;
+    }
+
+    /// Is so patient from now on.
+    pub fn set_patience(&mut self, patience: Patience) {
+        self.patience = patience;
     }
 
     pub fn counts(&self) -> SolverCounts {
@@ -133,7 +174,7 @@ impl LinearSolver {
     /// cloth, and an incomplete factor with the wrong ones is worse than none.
     pub fn expect_new_matrix(&mut self) {
         self.is_factor_current = false;
-        if self.failures.incomplete < FAILURES_MAX {
+        if self.failures.incomplete < self.patience.incomplete_failures_max() {
             self.preconditioner = Preconditioner::None;
         }
     }
@@ -176,7 +217,7 @@ impl LinearSolver {
         x: &mut [DVec3],
         accuracy: Accuracy,
     ) -> Result<(), SolveError> {
-        let is_given_up = self.failures.outdated_factor >= FAILURES_MAX;
+        let is_given_up = self.failures.outdated_factor >= self.patience.outdated_failures_max();
         if is_given_up || !self.direct.has_pattern_of(matrix) {
             return self.solve_directly(matrix, b, x);
         }
@@ -202,7 +243,7 @@ impl LinearSolver {
         accuracy: Accuracy,
     ) -> Result<(), SolveError> {
         let growth = (b.len() as f64 / 5e3).sqrt().max(0.5);
-        let iterations = (ITERATIONS_AT_5000 * growth) as usize;
+        let iterations = (self.patience.iterations_at_5000() * growth) as usize;
         let budget = Budget { accuracy, iterations };
         let incomplete = &mut self.incomplete;
         let apply = |r: &[DVec3], z: &mut [DVec3]| incomplete.apply(r, z);
