@@ -8,7 +8,7 @@ use super::document::{Node, Value, apply_overrides};
 use super::error::{LoadError, Place, Problem};
 use super::native::{SHOT_VERSION, ShotFile};
 use super::resolve::{CameraRequest, Resolver, stem};
-use super::source::{FileRead, FileSource, Reader, joined};
+use super::source::{FileRead, FileRole, FileSource, Reader, joined};
 
 /// What to load, and what the command line changes about it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,6 +33,9 @@ pub struct LoadedShot {
     pub files_read: Vec<FileRead>,
     /// All settings, with nothing left to defaults.
     pub resolved: serde_json::Value,
+    /// What the shot file says itself, with the scene it imports and the overrides: what it leaves to
+    /// defaults is absent, fabrics are named with their factors, cameras may be file names.
+    pub written: serde_json::Value,
 }
 
 /// Reads a shot and every file it names.
@@ -48,7 +51,8 @@ pub fn load(options: &LoadOptions, source: &dyn FileSource) -> Result<LoadedShot
     let request = CameraRequest { file: options.camera.clone(), fps: options.fps };
     let resolver = Resolver::new(&document, folder, &reader, &mut warnings)?;
     let (scene, resolved) = resolver.scene(name, &request)?;
-    Ok(LoadedShot { scene, warnings, files_read: reader.into_files_read(), resolved })
+    let written = document.json();
+    Ok(LoadedShot { scene, warnings, files_read: reader.into_files_read(), resolved, written })
 }
 
 /// The JSON Schema of the native shot file.
@@ -127,7 +131,7 @@ fn imported(
 }
 
 fn parsed(path: &Path, reader: &Reader<'_>) -> Result<Node, LoadError> {
-    Node::parse(&path.to_string_lossy(), &reader.text(path)?)
+    Node::parse(&path.to_string_lossy(), &reader.text_for(FileRole::Document, path)?)
 }
 
 #[cfg(test)]

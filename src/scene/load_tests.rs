@@ -146,6 +146,21 @@ fn the_record_is_a_shot_of_its_own_and_means_the_same() {
 }
 
 #[test]
+fn what_is_written_keeps_factors_and_leaves_defaults_out() {
+    let written = load_text(SHOT, &["view.nu_back=0.3"]).unwrap().written;
+    assert_eq!(written["view"], serde_json::json!({"nu_out": 0.05, "nu_back": 0.3}));
+    assert_eq!(written["fabrics"]["cotton"]["thicken"], 2);
+    assert_eq!(written["camera"], "main.camera.json");
+    assert_eq!(written.get("air"), None);
+    let wrapper = r#"{"shotsilk": 1, "import": "conf/scene.json", "fps": 24}"#;
+    let written = load_text(wrapper, &[]).unwrap().written;
+    assert_eq!(
+        (&written["fps"], &written["garments"][0]["fabric"]),
+        (&24.into(), &"cloth0".into())
+    );
+}
+
+#[test]
 fn overrides_replace_and_add_settings() {
     let sets = [
         "view.nu_out=0.1",

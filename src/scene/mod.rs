@@ -19,7 +19,7 @@ mod source;
 mod surface;
 
 pub use deformation::{Deformation, DeformationError, PointKey};
-pub(crate) use document::from_json;
+pub(crate) use document::{Known, SYNTAX, from_json};
 pub use error::{LoadError, Place, Problem};
 #[cfg(test)]
 pub use fabric::testing;
@@ -30,11 +30,12 @@ pub use fabric::{
 pub use load::{LoadOptions, LoadedShot, load, shot_schema};
 pub use motion::{Motion, MotionError, MotionKey};
 pub use pose::{Pose, PoseVelocity};
-pub use resolve::{load_camera, recorded_viewers};
+pub use resolve::{contact_thickness_most, load_camera, recorded_viewers};
 pub use settings::{
     Air, Contact, Dynamics, SizingSettings, SolverChoice, StageSwitches, ViewRule, ViewSettings,
 };
-pub use source::{EmbeddedFiles, FileRead, FileSource, FileSystem};
+pub(crate) use source::joined;
+pub use source::{EmbeddedFiles, FileRead, FileRole, FileSource, FileSystem};
 pub use surface::{Surface, Welding};
 
 use std::collections::BTreeMap;

@@ -66,6 +66,18 @@ pub struct FileRead {
     pub path: PathBuf,
     /// Of the contents, in hexadecimal digits.
     pub sha256: String,
+    pub role: FileRole,
+}
+
+/// What a file is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileRole {
+    /// The shot or the scene it imports: all that it says is in the resolved settings.
+    Document,
+    /// What the shot simulates.
+    Scene,
+    /// A camera: how finely the scene is simulated.
+    Camera,
 }
 
 /// Reads each file once and remembers which.
@@ -83,6 +95,11 @@ impl<'a> Reader<'a> {
     /// A whole file of UTF-8 text; bytes that are not become replacement characters, since old OBJ
     /// files carry comments in other encodings.
     pub(super) fn text(&self, path: &Path) -> Result<Arc<str>, LoadError> {
+        self.text_for(FileRole::Scene, path)
+    }
+
+    /// As [`Reader::text`]. A file that is read for both counts as read for the first.
+    pub(super) fn text_for(&self, role: FileRole, path: &Path) -> Result<Arc<str>, LoadError> {
         if let Some(text) = self.texts.borrow().get(path) {
             return Ok(text.clone());
         }
@@ -91,7 +108,7 @@ impl<'a> Reader<'a> {
             .read(path)
             .map_err(|error| Problem::Read { path: path.to_path_buf(), error }.nowhere())?;
         let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-        self.files_read.borrow_mut().push(FileRead { path: path.to_path_buf(), sha256 });
+        self.files_read.borrow_mut().push(FileRead { path: path.to_path_buf(), sha256, role });
         let text: Arc<str> = String::from_utf8_lossy(&bytes).into();
         self.texts.borrow_mut().insert(path.to_path_buf(), text.clone());
         Ok(text)
@@ -108,7 +125,7 @@ impl<'a> Reader<'a> {
 
 /// `relative` seen from `folder`, without `.` and with `..` taken out where the name before it is
 /// known, so that one file has one path.
-pub(super) fn joined(folder: &Path, relative: &Path) -> PathBuf {
+pub(crate) fn joined(folder: &Path, relative: &Path) -> PathBuf {
     let mut path = PathBuf::new();
     for component in folder.join(relative).components() {
         match component {

@@ -69,6 +69,14 @@ impl CameraPath {
         self.view_from(Side::Before, frame)
     }
 
+    /// The lens at a frame, as [`CameraPath::view`] finds it.
+    ///
+    /// # Panics
+    /// If the path has no keys.
+    pub fn lens(&self, frame: f64) -> Lens {
+        self.placed(Side::At, frame).1
+    }
+
     /// The frames at which the camera jumps, ascending.
     pub fn cuts(&self) -> Vec<f64> {
         match &self.track {
@@ -108,13 +116,7 @@ impl CameraPath {
     }
 
     fn view_from(&self, side: Side, frame: f64) -> View {
-        let (pose, lens) = match &self.track {
-            Track::Keys(keys) => {
-                let key = interpolated(run_at(keys, side, frame), frame);
-                (Pose::looking_at(key.eye, key.target, key.up), key.lens)
-            }
-            Track::Matrices { samples, cuts } => baked::interpolated(samples, cuts, side, frame),
-        };
+        let (pose, lens) = self.placed(side, frame);
         let image_aspect =
             f64::from(self.resolution[0]) * self.pixel_aspect / f64::from(self.resolution[1]);
         let [gate_min, gate_max] = lens.gate(image_aspect);
@@ -128,6 +130,16 @@ impl CameraPath {
             near: self.near,
             far: self.far,
             resolution: self.resolution,
+        }
+    }
+
+    fn placed(&self, side: Side, frame: f64) -> (Pose, Lens) {
+        match &self.track {
+            Track::Keys(keys) => {
+                let key = interpolated(run_at(keys, side, frame), frame);
+                (Pose::looking_at(key.eye, key.target, key.up), key.lens)
+            }
+            Track::Matrices { samples, cuts } => baked::interpolated(samples, cuts, side, frame),
         }
     }
 }

@@ -160,3 +160,18 @@ fn keys_and_their_baked_matrices_show_the_same() {
     }
     assert_near(shot.view_before(10.0).eye, baked.view_before(10.0).eye);
 }
+
+#[test]
+fn the_lens_at_a_frame_is_the_one_the_view_looks_through() {
+    let (eye, target) = (DVec3::new(0.0, -2.0, 1.0), DVec3::ZERO);
+    let with_fov = |frame: f64, fov_y: f64| CameraKey {
+        lens: Lens::FieldOfView { fov_y },
+        ..key(frame, eye, target)
+    };
+    let path = path(vec![with_fov(0.0, 0.5), with_fov(10.0, 0.9)]);
+    for frame in [0.0, 3.5, 10.0, 20.0] {
+        let view = path.view(frame);
+        assert_eq!(path.lens(frame).gate(960.0 / 540.0), [view.gate_min, view.gate_max]);
+    }
+    assert_eq!(path.lens(10.0), Lens::FieldOfView { fov_y: 0.9 });
+}

@@ -1,11 +1,14 @@
 //! JSON with comments as a tree in which every value knows where it was written, so that errors
 //! found long after parsing still point at their line.
 
+mod known;
 mod merge;
 mod parse;
 mod set;
 mod typed;
 
+pub(crate) use known::Known;
+pub(crate) use parse::SYNTAX;
 pub(super) use set::apply_overrides;
 pub(crate) use typed::from_json;
 

@@ -10,7 +10,7 @@ use super::{Member, Node, Value};
 use crate::scene::error::{LoadError, Place, Problem};
 
 /// JSON, comments and trailing commas; nothing looser.
-const SYNTAX: ParseOptions = ParseOptions {
+pub(crate) const SYNTAX: ParseOptions = ParseOptions {
     allow_comments: true,
     allow_loose_object_property_names: false,
     allow_trailing_commas: true,

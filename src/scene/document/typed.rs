@@ -22,7 +22,8 @@ impl Node {
         serde_json::from_value(self.json()).map_err(|_| self.error::<T>())
     }
 
-    fn json(&self) -> serde_json::Value {
+    /// The tree without places.
+    pub fn json(&self) -> serde_json::Value {
         match &self.value {
             Value::Null => serde_json::Value::Null,
             Value::Bool(value) => (*value).into(),

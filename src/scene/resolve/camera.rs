@@ -9,7 +9,7 @@ use super::{Resolver, stem};
 use crate::scene::document::{Node, Value};
 use crate::scene::error::{LoadError, Problem};
 use crate::scene::native::{CameraFile, KeyFile, SampleFile};
-use crate::scene::source::{FileSource, Reader, joined};
+use crate::scene::source::{FileRole, FileSource, Reader, joined};
 use crate::shot::{CameraKey, CameraPath, Lens, Track};
 
 /// Frame rates that differ less than this (relative) are the same.
@@ -68,7 +68,7 @@ impl Resolver<'_> {
         path: &Path,
         request: &CameraRequest,
     ) -> Result<(CameraFile, CameraPath), LoadError> {
-        let text = self.reader.text(path)?;
+        let text = self.reader.text_for(FileRole::Camera, path)?;
         let name = path.to_string_lossy();
         self.camera(&Node::parse(&name, &text)?, stem(&name).trim_end_matches(".camera"), request)
     }

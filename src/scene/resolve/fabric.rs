@@ -41,6 +41,11 @@ const POISSON_RATIO: f64 = 0.3;
 /// That of a solid whose volume does not change.
 const SOLID_POISSON_RATIO_MAX: f64 = 0.5;
 
+/// How far cloth of a garment may be held off (m), by the garment's flat area (m^2).
+pub fn contact_thickness_most(area: f64) -> f64 {
+    area.sqrt() * CONTACT_THICKNESS_SHARE_MAX
+}
+
 impl Resolver<'_> {
     /// The fabric of a name that is written at `path`.
     pub(super) fn fabric(&mut self, path: &str, name: &str) -> Result<Fabric, LoadError> {
@@ -128,7 +133,7 @@ impl Resolver<'_> {
         area: f64,
     ) -> Result<(), LoadError> {
         let thickness = self.contact_thickness(name);
-        let most = area.sqrt() * CONTACT_THICKNESS_SHARE_MAX;
+        let most = contact_thickness_most(area);
         if thickness <= most {
             return Ok(());
         }

@@ -24,6 +24,7 @@ use limit::{Limit, check, out_of_range};
 
 pub(super) use camera::CameraRequest;
 pub use camera::{load_camera, recorded_viewers};
+pub use fabric::contact_thickness_most;
 
 /// Far from where adding a frame's number would overflow.
 const FIRST_FRAME_LIMIT: Limit = Limit::Between(-1e9, 1e9);
