@@ -34,6 +34,35 @@ pub struct MeshParts {
 }
 
 impl Mesh {
+    /// Memory that the arrays hold (bytes).
+    pub fn memory(&self) -> usize {
+        // Exhaustive, so that a new array cannot be forgotten here.
+        let Self {
+            position,
+            velocity,
+            metric,
+            view_factor,
+            node_origin,
+            corner_of_node,
+            node_of_vertex,
+            material,
+            vertices_of_face,
+            opposite,
+            rest_angle,
+        } = self;
+        size_of_val(position.as_slice())
+            + size_of_val(velocity.as_slice())
+            + size_of_val(metric.as_slice())
+            + size_of_val(view_factor.as_slice())
+            + size_of_val(node_origin.as_slice())
+            + size_of_val(corner_of_node.as_slice())
+            + size_of_val(node_of_vertex.as_slice())
+            + size_of_val(material.as_slice())
+            + size_of_val(vertices_of_face.as_slice())
+            + size_of_val(opposite.as_slice())
+            + size_of_val(rest_angle.as_slice())
+    }
+
     pub fn to_parts(&self) -> MeshParts {
         // Exhaustive, so that a new array cannot be forgotten here.
         let Self {

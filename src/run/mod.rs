@@ -12,6 +12,7 @@
 
 mod bytes;
 mod error;
+mod frame_file;
 mod info;
 mod inputs;
 mod lock;
@@ -25,6 +26,7 @@ mod stats;
 mod write;
 
 pub use error::{RunError, StateError};
+pub use frame_file::{read_frame_file, write_frame_file};
 pub use info::{RUN_FORMAT, RunInfo};
 pub use inputs::{InputHasher, cpu_features};
 pub use read::RunReader;

@@ -15,6 +15,17 @@ pub enum SizingMode {
     View,
 }
 
+impl SizingMode {
+    /// As the command line calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Uniform { .. } => "uniform",
+            Self::Adaptive => "adaptive",
+            Self::View => "view",
+        }
+    }
+}
+
 /// See the fields.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SimSettings {
