@@ -29,6 +29,11 @@ const FILES: [(&str, &[u8]); 10] = [
 /// The shot file, under the name that captions show.
 const SHOT: (&str, &[u8]) = ("own-shot.json", include_bytes!("../assets/own-shot/shot.json"));
 
+/// The text of the shot file, and the files that it names, by the names it uses.
+pub fn own_shot_parts() -> (&'static [u8], impl Iterator<Item = (&'static str, &'static [u8])>) {
+    (SHOT.1, FILES.into_iter())
+}
+
 /// The shot's path, and the files among which it is found.
 pub fn own_shot() -> (PathBuf, EmbeddedFiles) {
     let files = FILES.into_iter().chain([SHOT]);

@@ -8,6 +8,7 @@ use std::str::FromStr;
 use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
+use crate::request::FrameRange;
 use crate::sim::SizingMode;
 
 /// Which shot, and what to change about it.
@@ -51,16 +52,6 @@ pub enum Sizing {
     View,
 }
 
-impl Sizing {
-    pub fn name(self) -> &'static str {
-        match self {
-            Sizing::Uniform => "uniform",
-            Sizing::Adaptive => "adaptive",
-            Sizing::View => "view",
-        }
-    }
-}
-
 impl ShotArgs {
     /// What `--sizing` says.
     pub fn sizing(&self) -> Sizing {
@@ -83,19 +74,6 @@ impl ShotArgs {
     /// Whether something is asked for that only a simulation can give.
     pub fn changes_the_simulation(&self) -> bool {
         !self.sets.is_empty() || self.sizing.is_some() || self.edge_length.is_some()
-    }
-}
-
-/// Frames from the first to the last, both included.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FrameRange {
-    pub first: u32,
-    pub last: u32,
-}
-
-impl FrameRange {
-    pub fn contains(self, frame: u32) -> bool {
-        (self.first..=self.last).contains(&frame)
     }
 }
 

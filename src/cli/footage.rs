@@ -5,12 +5,13 @@ use std::sync::Arc;
 use anyhow::{Context, Result};
 use tempfile::TempDir;
 
-use super::args::{FrameRange, ShotArgs};
+use super::args::ShotArgs;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::log::LogArgs;
 use super::progress::{Progress, ProgressMode};
 use super::shot::Shot;
+use crate::request::FrameRange;
 use crate::run::{RunInfo, RunReader, RunWriter, WriteOptions};
 use crate::scene::{FileSystem, Surface, ViewSettings, load_camera, recorded_viewers};
 use crate::sheet::chosen_frames;

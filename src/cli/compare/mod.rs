@@ -13,12 +13,13 @@ use anyhow::{Context, Result};
 use clap::Args;
 use image::RgbaImage;
 
-use super::args::{FrameRange, parse_frames};
+use super::args::parse_frames;
 use super::failure::Failure;
 use super::log::LogArgs;
 use super::output::{self, PendingFile};
 use crate::compare::{Comparison, Kind, Tolerance};
 use crate::render::AdapterChoice;
+use crate::request::FrameRange;
 use crate::run::RunReader;
 
 #[derive(Args, Debug)]
