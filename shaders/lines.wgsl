@@ -17,12 +17,6 @@ const FRINGE_PX: f32 = 1.0;
 // Lines that lie on a surface win against it, by this share of the depth range.
 const DEPTH_BIAS: f32 = 1e-5;
 
-fn linear_from_srgb(c: vec4<f32>) -> vec4<f32> {
-    let low = c.rgb / 12.92;
-    let high = pow((c.rgb + 0.055) / 1.055, vec3<f32>(2.4));
-    return vec4<f32>(select(high, low, c.rgb <= vec3<f32>(0.04045)), c.a);
-}
-
 // The part of a..b in front of the near plane, from its end `a`.
 fn clipped(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
     if (a.z >= 0.0) {

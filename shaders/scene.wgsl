@@ -16,3 +16,10 @@ struct Scene {
 @group(0) @binding(0) var<uniform> scene: Scene;
 // A row for each colour map; decoded to linear when read.
 @group(0) @binding(1) var colour_tables: texture_2d<f32>;
+
+// A colour as it is written, with its opacity.
+fn linear_from_srgb(c: vec4<f32>) -> vec4<f32> {
+    let low = c.rgb / 12.92;
+    let high = pow((c.rgb + 0.055) / 1.055, vec3<f32>(2.4));
+    return vec4<f32>(select(high, low, c.rgb <= vec3<f32>(0.04045)), c.a);
+}

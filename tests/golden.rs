@@ -106,7 +106,7 @@ fn witness(headless: &mut Headless, time: f64, options: &PictureOptions) -> Rgba
     }
     let view = camera(time);
     let depth = ShotCamera::frustum_depth_past(&view, cloth);
-    let shot_camera = ShotCamera { view: &view, trail: &trail, frustum_depth: depth };
+    let shot_camera = ShotCamera { view: &view, trail: &trail, frustum_depth: depth, ghost: None };
     let placed = witness_view(&subject, SIZE);
     headless.witness_picture(&frame, &surfaces, &placed, &shot_camera, options).expect("a picture")
 }

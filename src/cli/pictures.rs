@@ -8,8 +8,8 @@ use image::RgbaImage;
 use super::failure::Failure;
 use super::footage::Footage;
 use crate::render::{
-    AdapterChoice, Bounds, CameraTrail, ColourBy, Edges, Headless, LogRange, PictureOptions,
-    ShotCamera, WitnessSubject, size_of_width, witness_view,
+    AdapterChoice, Bounds, CameraTrail, ColourBy, CrossingMarks, Edges, Headless, LogRange,
+    PictureOptions, ShotCamera, WitnessSubject, size_of_width, witness_view,
 };
 use crate::shot::{CameraKey, CameraPath, Lens, Track, View};
 use crate::sim::Frame;
@@ -29,6 +29,9 @@ pub struct PictureArgs {
     /// How the edges of the mesh are coloured
     #[arg(long, value_enum, default_value_t = EdgeColour::Dark)]
     pub edges: EdgeColour,
+    /// Mark faces that pass through other cloth or obstacles in magenta
+    #[arg(long)]
+    pub crossings: bool,
     /// Leave out the edges of the mesh
     #[arg(long)]
     pub no_wireframe: bool,
@@ -43,6 +46,8 @@ pub enum Colour {
     EdgeSize,
     /// Stretch and compression
     Strain,
+    /// How fast the cloth moves
+    Velocity,
     /// The fabric
     Plain,
 }
@@ -111,11 +116,15 @@ impl<'a> Studio<'a> {
                 EdgeColour::Dark => Edges::Dark,
                 EdgeColour::Frame => Edges::ByFrame(footage.view_settings()),
             },
+            crossings: match args.crossings {
+                true => CrossingMarks::Magenta,
+                false => CrossingMarks::None,
+            },
             wire_strength: if args.no_wireframe { 0.0 } else { defaults.wire_strength },
             ground_height: Some(subject.cloth.min.z),
             ..defaults
         };
-        let trail = trail(&camera, *footage.frames().last().unwrap_or(&0));
+        let trail = CameraTrail::of(&camera, *footage.frames().last().unwrap_or(&0));
         Ok(Self { footage, camera, gpu, witness, trail, cloth: subject.cloth, options })
     }
 
@@ -149,6 +158,7 @@ impl<'a> Studio<'a> {
             view: &view,
             trail: &self.trail,
             frustum_depth: ShotCamera::frustum_depth_past(&view, self.cloth),
+            ghost: None,
         };
         let surfaces = self.footage.surfaces();
         let picture =
@@ -179,22 +189,12 @@ fn subject(footage: &Footage, camera: &CameraPath) -> Result<WitnessSubject> {
     Ok(subject)
 }
 
-fn trail(camera: &CameraPath, last: u32) -> CameraTrail {
-    let index = |frames: Vec<f64>| {
-        frames.into_iter().map(|f| f.round() as usize).filter(|&f| f <= last as usize).collect()
-    };
-    CameraTrail {
-        eyes: (0..=last).map(|frame| camera.view(f64::from(frame)).eye).collect(),
-        keys: index(camera.key_frames()),
-        cuts: index(camera.cuts()),
-    }
-}
-
 fn colour_by(colour: Colour, footage: &Footage) -> Result<ColourBy> {
     Ok(match colour {
         Colour::ViewFactor => ColourBy::view_factor(&footage.view_settings()),
         Colour::EdgeSize => ColourBy::EdgeSize(edge_range(footage)?),
         Colour::Strain => ColourBy::Strain { limit: STRAIN_LIMIT },
+        Colour::Velocity => ColourBy::speed(fastest(footage)?),
         Colour::Plain => ColourBy::Plain,
     })
 }
@@ -211,6 +211,18 @@ fn edge_range(footage: &Footage) -> Result<LogRange> {
         }
     }
     Ok(LogRange { start, end: end.max(start * 1.001) })
+}
+
+/// The speed of the fastest face over all frames (m/s).
+fn fastest(footage: &Footage) -> Result<f64> {
+    let by = ColourBy::Speed { limit: 1.0 };
+    let mut fastest = 0.0f64;
+    for &number in footage.frames() {
+        for mesh in &footage.frame(number)?.garments {
+            fastest = mesh.face_ids().map(|f| by.value(mesh, f)).fold(fastest, f64::max);
+        }
+    }
+    Ok(fastest)
 }
 
 fn placed_witness(place: WitnessPlace, size: [u32; 2]) -> View {

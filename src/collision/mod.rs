@@ -10,6 +10,7 @@ mod carry;
 mod cloth;
 mod continuous;
 mod contour;
+mod crossing_faces;
 mod everywhere;
 mod face_tree;
 mod group;
@@ -33,6 +34,7 @@ pub use contour::{
     Cut, CutNodes, Limits, Method, Round, TangledCloth, Untangling, contour_count, cuts, lift_cuts,
     stop_at_crossings, untangle,
 };
+pub use crossing_faces::{CrossingFaces, GarmentFace, crossing_faces};
 pub use face_tree::{FaceTree, Touch};
 pub use guard::ObstacleGuard;
 pub use motion::ObstacleMotion;

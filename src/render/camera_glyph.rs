@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::shot::View;
+use crate::shot::{CameraPath, View};
 
 use super::bounds::Bounds;
 use super::colour::Srgb;
@@ -16,6 +16,9 @@ pub struct ShotCamera<'a> {
     /// How far in front of the eye the frustum is drawn (m). The far plane is usually far beyond
     /// anything worth seeing: [`ShotCamera::frustum_depth_past`] stops behind the cloth.
     pub frustum_depth: f64,
+    /// Where the camera will be: its frustum is drawn paler and thinner. One that is where the camera
+    /// is already is not drawn.
+    pub ghost: Option<&'a View>,
 }
 
 /// A camera's way through the shot.
@@ -30,6 +33,9 @@ pub struct CameraTrail {
 }
 
 const FRUSTUM_COLOUR: [u8; 4] = [20, 21, 24, 255];
+/// Paler and thinner than the frustum that is, and bluish: it reads as the same thing, later.
+const GHOST_COLOUR: [u8; 4] = [70, 96, 150, 150];
+const GHOST_WIDTH_PX: f32 = 0.9;
 const TRAIL_COLOUR: [u8; 4] = [60, 66, 76, 200];
 const CUT_COLOUR: [u8; 4] = [196, 90, 20, 255];
 const PAPER: [u8; 4] = [250, 250, 250, 255];
@@ -51,6 +57,26 @@ const BODY: Material = Material {
 /// image in every shot.
 const BODY_SHARE: f64 = 0.045;
 
+/// Colour (sRGB and opacity) and width (px) of lines.
+type Stroke = ([u8; 4], f32);
+
+impl CameraTrail {
+    /// The way from frame 0 to a frame, with the keys and cuts on it.
+    ///
+    /// # Panics
+    /// If the path has no keys.
+    pub fn of(path: &CameraPath, last: u32) -> Self {
+        let index = |frames: Vec<f64>| {
+            frames.into_iter().map(|f| f.round() as usize).filter(|&f| f <= last as usize).collect()
+        };
+        Self {
+            eyes: (0..=last).map(|frame| path.view(f64::from(frame)).eye).collect(),
+            keys: index(path.key_frames()),
+            cuts: index(path.cuts()),
+        }
+    }
+}
+
 impl ShotCamera<'_> {
     /// A frustum depth (m) that ends a little behind the subject, within near and far plane.
     pub fn frustum_depth_past(view: &View, subject: Bounds) -> f64 {
@@ -68,34 +94,40 @@ impl DrawList {
     /// Adds the shot camera, for a witness at `witness_eye` (m).
     pub fn push_shot_camera(&mut self, camera: &ShotCamera<'_>, witness_eye: DVec3) {
         self.push_trail(camera.trail);
-        self.push_frustum(camera);
+        if let Some(ghost) = camera.ghost.filter(|&ghost| ghost != camera.view) {
+            self.push_frustum(ghost, camera.frustum_depth, (GHOST_COLOUR, GHOST_WIDTH_PX));
+        }
+        let stroke = (FRUSTUM_COLOUR, FRUSTUM_WIDTH_PX);
+        self.push_frustum(camera.view, camera.frustum_depth, stroke);
         let size = BODY_SHARE * camera.view.eye.distance(witness_eye);
         let body = body_vertices(camera.view, size, self.origin);
         self.surfaces.push(SurfaceBatch { material: BODY, vertices: body });
     }
 
-    fn push_frustum(&mut self, camera: &ShotCamera<'_>) {
-        let View { eye, near, .. } = *camera.view;
-        let far = gate_corners(camera.view, camera.frustum_depth);
-        let near = gate_corners(camera.view, near);
+    /// To a depth (m), in a colour and a width (px).
+    fn push_frustum(&mut self, view: &View, depth: f64, stroke: Stroke) {
+        let View { eye, near, .. } = *view;
+        let (colour, width_px) = stroke;
+        let far = gate_corners(view, depth);
+        let near = gate_corners(view, near);
         for i in 0..4 {
-            self.push_line(eye, far[i], FRUSTUM_COLOUR, FRUSTUM_WIDTH_PX);
+            self.push_line(eye, far[i], colour, width_px);
             for gate in [near, far] {
-                self.push_line(gate[i], gate[(i + 1) % 4], FRUSTUM_COLOUR, FRUSTUM_WIDTH_PX);
+                self.push_line(gate[i], gate[(i + 1) % 4], colour, width_px);
             }
         }
-        self.push_up_mark(camera.view, far);
+        self.push_up_mark(view, far, stroke);
     }
 
     /// A small triangle above the far gate: which way the camera's up is.
-    fn push_up_mark(&mut self, view: &View, gate: [DVec3; 4]) {
+    fn push_up_mark(&mut self, view: &View, gate: [DVec3; 4], (colour, width_px): Stroke) {
         let (left, right) = (gate[3], gate[2]);
         let width = left.distance(right);
         let middle = 0.5 * (left + right) + view.up * (0.02 * width);
         let side = (right - left) * 0.06;
         let tip = middle + view.up * (0.07 * width);
         for [a, b] in [[middle - side, middle + side], [middle + side, tip], [tip, middle - side]] {
-            self.push_line(a, b, FRUSTUM_COLOUR, FRUSTUM_WIDTH_PX);
+            self.push_line(a, b, colour, width_px);
         }
     }
 

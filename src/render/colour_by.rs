@@ -39,6 +39,9 @@ pub enum ColourBy {
     /// The principal stretch furthest from 1, minus 1: stretch positive, compression negative;
     /// from `-limit` to `limit`.
     Strain { limit: f64 },
+    /// The length of the mean of the velocities of the face's nodes (m/s): how fast its middle moves;
+    /// from rest to `limit`, and even, since a logarithmic scale has no place for cloth at rest.
+    Speed { limit: f64 },
     /// Nothing: the fabric.
     Plain,
 }
@@ -65,12 +68,18 @@ impl ColourBy {
         Self::ViewFactor(range.unwrap_or(LogRange { start: papers.nu_front, end: papers.nu_out }))
     }
 
+    /// The speed from rest to a round value that the fastest face (m/s) does not exceed.
+    pub fn speed(fastest: f64) -> Self {
+        Self::Speed { limit: round_limit(fastest) }
+    }
+
     /// `None` where colour shows nothing.
     pub fn table(self) -> Option<ColourTable> {
         match self {
             Self::ViewFactor(_) => Some(ColourTable::ViewFactor),
             Self::EdgeSize(_) => Some(ColourTable::EdgeSize),
             Self::Strain { .. } => Some(ColourTable::Strain),
+            Self::Speed { .. } => Some(ColourTable::Speed),
             Self::Plain => None,
         }
     }
@@ -84,6 +93,10 @@ impl ColourBy {
                 let strains = mesh.deformation_gradient(face).singular_values().map(|s| s - 1.0);
                 if strains[0] >= -strains[1] { strains[0] } else { strains[1] }
             }
+            Self::Speed { .. } => {
+                let [a, b, c] = mesh.face_nodes(face).map(|node| mesh.velocity[node]);
+                ((a + b + c) / 3.0).length()
+            }
             Self::Plain => 0.0,
         }
     }
@@ -93,6 +106,9 @@ impl ColourBy {
         match self {
             Self::ViewFactor(range) | Self::EdgeSize(range) => range.coordinate(value),
             Self::Strain { limit } => (0.5 + 0.5 * value / limit).clamp(0.0, 1.0),
+            // Of a scale without extent, all is start.
+            Self::Speed { limit } if limit > 0.0 => (value / limit).clamp(0.0, 1.0),
+            Self::Speed { .. } => 0.0,
             Self::Plain => 0.0,
         }
     }
@@ -102,6 +118,7 @@ impl ColourBy {
             Self::ViewFactor(_) => "view factor",
             Self::EdgeSize(_) => "edge length",
             Self::Strain { .. } => "strain",
+            Self::Speed { .. } => "speed (m/s)",
             Self::Plain => "",
         }
     }
@@ -119,6 +136,9 @@ impl ColourBy {
             Self::Strain { limit } => [-1.0, -0.5, 0.0, 0.5, 1.0]
                 .map(|share: f64| tick(share * limit, percent_label(share * limit)))
                 .to_vec(),
+            Self::Speed { limit } => {
+                even_values(limit).into_iter().map(|v| tick(v, tidy(v))).collect()
+            }
             Self::Plain => Vec::new(),
         }
     }
@@ -157,6 +177,41 @@ fn round_values(range: LogRange) -> Vec<f64> {
     values
 }
 
+/// The steps that decimal scales are divided by, as shares of a power of ten.
+const ROUND: [f64; 4] = [1.0, 2.0, 2.5, 5.0];
+
+/// The shortest scale of speed (m/s): what nobody sees move needs no finer one.
+const SPEED_LIMIT_MIN: f64 = 0.01;
+
+/// The least 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 or 10 times a power of ten that is not below a value: little
+/// of the scale is lost. 1 for a value that is not above 0 or not finite: cloth at rest has a scale
+/// too; not below [`SPEED_LIMIT_MIN`].
+fn round_limit(value: f64) -> f64 {
+    const LIMITS: [f64; 10] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+    if !(value > 0.0 && value.is_finite()) {
+        return 1.0;
+    }
+    let power = 10f64.powf(value.log10().floor());
+    // The power may be off by a rounding, so that ten times it is not enough.
+    let found = LIMITS.iter().map(|l| l * power).find(|&l| l >= value * (1.0 - 1e-9));
+    found.unwrap_or(value).max(SPEED_LIMIT_MIN)
+}
+
+/// 0, the limit, and multiples of a round step between them, four to six in all.
+fn even_values(limit: f64) -> Vec<f64> {
+    /// Steps of an even scale are at least this share of it.
+    const STEP_MIN: f64 = 0.199;
+    if !(limit > 0.0 && limit.is_finite()) {
+        return vec![0.0];
+    }
+    let power = 10f64.powf((limit * STEP_MIN).log10().floor());
+    let steps = ROUND.iter().chain(&[10.0]).map(|r| r * power);
+    let step = steps.into_iter().find(|&s| s >= limit * STEP_MIN).unwrap_or(limit);
+    // Five at most, as the step is a fifth of the limit or more.
+    let inner = (0..).map(|i| f64::from(i) * step).take_while(|&v| v < limit - 0.5 * step);
+    inner.chain([limit]).collect()
+}
+
 fn length_label(metres: f64) -> String {
     if metres < 0.01 {
         format!("{} mm", tidy(metres * 1e3))
@@ -180,6 +235,9 @@ fn tidy(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
+    use super::super::fixture::square;
     use super::*;
 
     const PAPERS: LogRange = LogRange { start: 1.0, end: 0.01 };
@@ -215,5 +273,43 @@ mod tests {
         let by = ColourBy::Strain { limit: 0.05 };
         assert_eq!(by.coordinate(0.0), 0.5);
         assert_eq!(by.ticks()[4].label, "+5 %");
+    }
+
+    #[test]
+    fn a_face_is_as_fast_as_its_middle() {
+        let mut mesh = square(0.0, 1.0);
+        let face = mesh.face_ids().next().unwrap();
+        let by = ColourBy::Speed { limit: 4.0 };
+        assert_eq!(by.value(&mesh, face), 0.0);
+        // Two nodes fly apart, the third one goes ahead: a third of its speed is the middle's.
+        let [a, b, c] = mesh.face_nodes(face);
+        mesh.velocity[a] = DVec3::X;
+        mesh.velocity[b] = -DVec3::X;
+        mesh.velocity[c] = DVec3::new(0.0, 3.0, 0.0);
+        assert!((by.value(&mesh, face) - 1.0).abs() < 1e-12);
+        assert_eq!(by.coordinate(1.0), 0.25);
+        assert_eq!(by.coordinate(9.0), 1.0);
+    }
+
+    #[test]
+    fn the_scale_of_speed_ends_at_a_round_value_and_has_even_ticks() {
+        let labels = |fastest: f64| -> Vec<String> {
+            ColourBy::speed(fastest).ticks().into_iter().map(|t| t.label).collect()
+        };
+        assert_eq!(labels(1.7), ["0", "0.5", "1", "1.5", "2"]);
+        assert_eq!(labels(4.9), ["0", "1", "2", "3", "4", "5"]);
+        assert_eq!(labels(5.7), ["0", "2", "4", "6"]);
+        assert_eq!(labels(0.011), ["0", "0.005", "0.01", "0.015"]);
+        assert_eq!(labels(1e-7), ["0", "0.002", "0.004", "0.006", "0.008", "0.01"]);
+        assert_eq!(labels(100.0), ["0", "20", "40", "60", "80", "100"]);
+    }
+
+    #[test]
+    fn cloth_at_rest_and_speeds_that_are_none_have_a_scale() {
+        for fastest in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(ColourBy::speed(fastest), ColourBy::Speed { limit: 1.0 }, "{fastest}");
+        }
+        let empty = ColourBy::Speed { limit: 0.0 };
+        assert_eq!((empty.coordinate(3.0), empty.ticks().len()), (0.0, 1));
     }
 }

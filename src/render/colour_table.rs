@@ -2,7 +2,7 @@
 //!
 //! A map is a path through Oklab, walked at constant speed, so that equal steps of the coordinate
 //! look equally different. The diverging maps fall in lightness from a pale neutral middle to both
-//! ends; the sequential one falls all the way: all are readable in grey and with colour-blind eyes.
+//! ends; the sequential ones fall all the way: all are readable in grey and with colour-blind eyes.
 
 use std::sync::LazyLock;
 
@@ -26,10 +26,12 @@ pub enum ColourTable {
     EdgeSize,
     /// Violet through pale grey to orange brown.
     Strain,
+    /// Pale sand through orange and crimson to dark plum.
+    Speed,
 }
 
 impl ColourTable {
-    pub const ALL: [Self; 3] = [Self::ViewFactor, Self::EdgeSize, Self::Strain];
+    pub const ALL: [Self; 4] = [Self::ViewFactor, Self::EdgeSize, Self::Strain, Self::Speed];
 
     pub fn colours(self) -> &'static [Srgb; COLOURS_PER_TABLE] {
         &TABLES[self.row()]
@@ -47,6 +49,7 @@ impl ColourTable {
             Self::ViewFactor => 0,
             Self::EdgeSize => 1,
             Self::Strain => 2,
+            Self::Speed => 3,
         }
     }
 
@@ -69,6 +72,13 @@ impl ColourTable {
                 let chroma = 0.084 + 0.018 * (s * std::f32::consts::PI).sin();
                 Oklab::from_chroma(0.92 - 0.60 * s, chroma, hue_deg)
             }
+            // The other way around the circle of hues than the edge size: warm, so that the two are
+            // not mistaken for one another.
+            Self::Speed => {
+                let hue_deg = 92.0 - 132.0 * s;
+                let chroma = 0.07 + 0.03 * s + 0.075 * (s * std::f32::consts::PI).sin();
+                Oklab::from_chroma(0.92 - 0.60 * s, chroma, hue_deg)
+            }
         }
     }
 }
@@ -84,7 +94,7 @@ fn diverging(start: Oklab, middle: Oklab, end: Oklab, s: f32) -> Oklab {
     colour
 }
 
-static TABLES: LazyLock<[[Srgb; COLOURS_PER_TABLE]; 3]> =
+static TABLES: LazyLock<[[Srgb; COLOURS_PER_TABLE]; ColourTable::ALL.len()]> =
     LazyLock::new(|| ColourTable::ALL.map(|table| evenly_spaced(|s| table.path(s))));
 
 /// Walks a path in steps of equal length.
@@ -133,8 +143,10 @@ mod tests {
             assert!(lightness[..=top].is_sorted() && lightness[top..].is_sorted_by(|a, b| a >= b));
             assert!((14..=18).contains(&top), "{table:?}: the palest colour is at {top} of 32");
         }
-        let edge_size = |i| ColourTable::EdgeSize.colour(f64::from(i) / 32.0).oklab().lightness;
-        assert!((0..32).all(|i| edge_size(i) > edge_size(i + 1)));
+        for table in [ColourTable::EdgeSize, ColourTable::Speed] {
+            let lightness = |i| table.colour(f64::from(i) / 32.0).oklab().lightness;
+            assert!((0..32).all(|i| lightness(i) > lightness(i + 1)), "{table:?}");
+        }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What to draw, as plain data: surfaces and lines relative to an origin.
+//! What to draw, as plain data: surfaces, marks on them and lines, relative to an origin.
 
 use std::sync::Arc;
 
@@ -21,6 +21,8 @@ pub struct DrawList {
     /// that 32 bits are precise there.
     pub origin: DVec3,
     pub surfaces: Vec<SurfaceBatch>,
+    /// Translucent triangles, three corners each, that shine through surfaces.
+    pub fills: Vec<FillVertex>,
     /// Lines that surfaces hide.
     pub ground_lines: Vec<Line>,
     /// Lines that shine faintly through surfaces.
@@ -62,6 +64,16 @@ pub struct SurfaceVertex {
     pub colour_coordinate: f32,
 }
 
+/// A corner of a translucent triangle as the shader reads it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct FillVertex {
+    /// Relative to the draw list's origin (m).
+    pub position: [f32; 3],
+    /// sRGB and opacity.
+    pub colour: [u8; 4],
+}
+
 /// A line of constant width on the image, as the shader reads it; without length it is a dot.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -84,6 +96,7 @@ impl DrawList {
         let mut list = Self {
             origin,
             surfaces: Vec::new(),
+            fills: Vec::new(),
             ground_lines: Vec::new(),
             overlay_lines: Vec::new(),
             background: options.background,

@@ -164,6 +164,7 @@ mod tests {
         let mut list = DrawList {
             origin: DVec3::ZERO,
             surfaces: Vec::new(),
+            fills: Vec::new(),
             ground_lines: Vec::new(),
             overlay_lines: Vec::new(),
             background: PictureOptions::default().background,

@@ -80,6 +80,26 @@ impl Gpu {
         Err(RenderError::NoAdapter { wanted: choice.description(), found })
     }
 
+    /// The first adapter allowed that can draw to a surface.
+    pub(super) async fn for_surface(
+        choice: &AdapterChoice,
+        instance: &wgpu::Instance,
+        surface: &wgpu::Surface<'_>,
+    ) -> Result<(Self, wgpu::Adapter), RenderError> {
+        let mut adapters = instance.enumerate_adapters(wgpu::Backends::all()).await;
+        adapters.sort_by_key(|a| rank(a.get_info().device_type));
+        let names: Vec<String> = adapters.iter().map(|a| a.get_info().name).collect();
+        let fits =
+            |a: &wgpu::Adapter| choice.allows(&a.get_info()) && a.is_surface_supported(surface);
+        match adapters.into_iter().find(fits) {
+            Some(adapter) => Ok((Self::open(&adapter).await?, adapter)),
+            None => {
+                let found = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+                Err(RenderError::NoAdapter { wanted: choice.description(), found })
+            }
+        }
+    }
+
     async fn open(adapter: &wgpu::Adapter) -> Result<Self, RenderError> {
         let adapter_name = adapter.get_info().name;
         let descriptor = wgpu::DeviceDescriptor {
@@ -110,6 +130,17 @@ impl Gpu {
     /// As the driver calls itself.
     pub fn adapter_name(&self) -> &str {
         &self.adapter_name
+    }
+
+    /// Waits until all that was submitted is done.
+    ///
+    /// # Errors
+    /// What the device has reported.
+    pub fn wait(&self) -> Result<(), RenderError> {
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|e| RenderError::Device(e.to_string()))?;
+        self.check()
     }
 
     /// The first error since the last call.

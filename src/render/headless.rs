@@ -10,16 +10,17 @@ use crate::shot::View;
 use crate::sim::Frame;
 
 use super::camera_glyph::ShotCamera;
+use super::canvas::Canvas;
+use super::crossings::Crossings;
 use super::draw_list::DrawList;
 use super::gpu::{AdapterChoice, Gpu, RenderError};
 use super::legend;
-use super::options::{Edges, PictureOptions};
+use super::options::{CrossingMarks, Edges, PictureOptions};
 use super::renderer::Renderer;
-use super::target::TargetTexture;
 
-/// What a frame shows to an eye, the mesh's edges included; the shot camera's view decides their
-/// colours.
-fn list_with_edges(
+/// What a frame shows to an eye, the mesh's edges and marked crossings included; the shot camera's
+/// view decides the colours of edges.
+fn list_with_marks(
     frame: &Frame,
     surfaces: &[Arc<Surface>],
     shot: &View,
@@ -30,6 +31,9 @@ fn list_with_edges(
     if let Edges::ByFrame(settings) = &options.edges {
         list.push_frame_edges(&frame.garments, settings, shot, eye, options.wire_width_px);
     }
+    if options.crossings == CrossingMarks::Magenta {
+        list.push_crossings(&Crossings::of(frame, surfaces), &frame.garments, eye);
+    }
     list
 }
 
@@ -37,14 +41,7 @@ fn list_with_edges(
 pub struct Headless {
     gpu: Gpu,
     renderer: Renderer,
-    picture: Option<Readable>,
-}
-
-/// A target and the memory it is read through.
-struct Readable {
-    target: TargetTexture,
-    buffer: wgpu::Buffer,
-    row_bytes: u32,
+    picture: Option<Canvas>,
 }
 
 impl Headless {
@@ -73,7 +70,7 @@ impl Headless {
         view: &View,
         options: &PictureOptions,
     ) -> Result<RgbaImage, RenderError> {
-        let list = list_with_edges(frame, surfaces, view, view.eye, options);
+        let list = list_with_marks(frame, surfaces, view, view.eye, options);
         self.finished_picture(&list, view, options)
     }
 
@@ -89,7 +86,7 @@ impl Headless {
         camera: &ShotCamera<'_>,
         options: &PictureOptions,
     ) -> Result<RgbaImage, RenderError> {
-        let mut list = list_with_edges(frame, surfaces, camera.view, witness.eye, options);
+        let mut list = list_with_marks(frame, surfaces, camera.view, witness.eye, options);
         list.push_shot_camera(camera, witness.eye);
         self.finished_picture(&list, witness, options)
     }
@@ -119,62 +116,11 @@ impl Headless {
     ) -> Result<RgbaImage, RenderError> {
         self.gpu.check_size(size)?;
         let readable = match self.picture.take() {
-            Some(readable) if readable.target.size() == size => readable,
-            _ => Readable::new(&self.gpu, size),
+            Some(readable) if readable.size() == size => readable,
+            _ => Canvas::new(&self.gpu, size),
         };
         let readable = self.picture.insert(readable);
-        self.renderer.draw(&self.gpu, list, view, readable.target.target())?;
+        self.renderer.draw(&self.gpu, list, view, readable.target())?;
         readable.read(&self.gpu)
-    }
-}
-
-impl Readable {
-    fn new(gpu: &Gpu, size: [u32; 2]) -> Self {
-        let row_bytes = (4 * size[0]).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("readback"),
-            size: u64::from(row_bytes) * u64::from(size[1]),
-            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        Self { target: TargetTexture::new(gpu, size), buffer, row_bytes }
-    }
-
-    fn read(&self, gpu: &Gpu) -> Result<RgbaImage, RenderError> {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        encoder.copy_texture_to_buffer(
-            self.target.texture.as_image_copy(),
-            wgpu::TexelCopyBufferInfo {
-                buffer: &self.buffer,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(self.row_bytes),
-                    rows_per_image: None,
-                },
-            },
-            self.target.texture.size(),
-        );
-        gpu.queue.submit([encoder.finish()]);
-        // A failure to map shows in the range below.
-        self.buffer.map_async(wgpu::MapMode::Read, .., |_| ());
-        gpu.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|e| RenderError::Device(e.to_string()))?;
-        gpu.check()?;
-        let pixels = self.unpadded()?;
-        self.buffer.unmap();
-        let [width, height] = self.target.size();
-        Ok(RgbaImage::from_raw(width, height, pixels).expect("four bytes for each pixel"))
-    }
-
-    /// The mapped rows without what aligns them.
-    fn unpadded(&self) -> Result<Vec<u8>, RenderError> {
-        let mapped =
-            self.buffer.get_mapped_range(..).map_err(|e| RenderError::Device(e.to_string()))?;
-        let used = 4 * self.target.size()[0] as usize;
-        Ok(mapped
-            .chunks_exact(self.row_bytes as usize)
-            .flat_map(|row| row[..used].to_vec())
-            .collect())
     }
 }

@@ -84,11 +84,13 @@ mod tests {
     use super::super::text::text_width;
     use super::*;
 
-    fn all() -> [ColourBy; 3] {
+    fn all() -> [ColourBy; 5] {
         [
             ColourBy::ViewFactor(LogRange { start: 1.0, end: 0.01 }),
             ColourBy::EdgeSize(LogRange { start: 0.01, end: 0.5 }),
             ColourBy::Strain { limit: 0.1 },
+            ColourBy::speed(4.9),
+            ColourBy::speed(0.012),
         ]
     }
 

@@ -8,11 +8,14 @@
 mod bounds;
 mod buffer;
 mod camera_glyph;
+mod canvas;
 mod cloth;
 mod colour;
 mod colour_by;
 mod colour_table;
+mod crossings;
 mod draw_list;
+mod film_gate;
 mod frame_edges;
 mod gpu;
 mod ground;
@@ -25,27 +28,34 @@ mod renderer;
 mod screen_edges;
 mod target;
 mod text;
+mod ui_painter;
 mod uniforms;
+mod window;
 mod witness;
 
 #[cfg(test)]
-mod fixture;
+pub(crate) mod fixture;
 #[cfg(test)]
 mod picture_tests;
 
 pub use bounds::Bounds;
 pub use camera_glyph::{CameraTrail, ShotCamera};
+pub use canvas::Canvas;
 pub use colour::{Oklab, Srgb};
 pub use colour_by::{ColourBy, LogRange, Tick};
 pub use colour_table::{COLOURS_PER_TABLE, ColourTable};
-pub use draw_list::{DrawList, Line, Material, SurfaceBatch, SurfaceVertex};
+pub use crossings::Crossings;
+pub use draw_list::{DrawList, FillVertex, Line, Material, SurfaceBatch, SurfaceVertex};
+pub use film_gate::{GateRect, SafeArea, gate_aspect, gate_rect};
 pub use frame_edges::FramePlace;
 pub use gpu::{AdapterChoice, Gpu, RenderError};
 pub use headless::Headless;
 pub use legend::{draw_legend, legend_size};
-pub use options::{Background, Edges, PictureOptions, Shading, size_of_width};
+pub use options::{Background, CrossingMarks, Edges, PictureOptions, Shading, size_of_width};
 pub use renderer::Renderer;
 pub use screen_edges::{ScreenEdges, screen_edges};
 pub use target::{TARGET_FORMAT, Target, TargetTexture, WINDOW_FORMAT};
-pub use text::{Align, Face, draw_text, text_width};
+pub use text::{Align, Face, draw_text, fitted_text, text_width};
+pub use ui_painter::{Sheet, UiPainter};
+pub use window::{Presented, WindowSurface};
 pub use witness::{WitnessSubject, witness_view};

@@ -1,19 +1,25 @@
-//! The pipelines: background, surfaces, lines in front of and behind surfaces.
+//! The pipelines: background, surfaces, and marks and lines in front of and behind surfaces.
 
 use super::colour_table::{COLOURS_PER_TABLE, ColourTable};
-use super::draw_list::{Line, SurfaceVertex};
+use super::draw_list::{FillVertex, Line, SurfaceVertex};
 use super::gpu::Gpu;
 use super::target::{DEPTH_FORMAT, SAMPLE_COUNT, TARGET_FORMAT, extent};
-use super::uniforms::{BACKGROUND_WGSL, LINES_WGSL, MaterialUniforms, SURFACE_WGSL, SceneUniforms};
+use super::uniforms::{
+    BACKGROUND_WGSL, FILL_WGSL, LINES_WGSL, MaterialUniforms, SURFACE_WGSL, SceneUniforms,
+};
 
 const SURFACE_ATTRIBUTES: [wgpu::VertexAttribute; 3] =
     wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32];
+const FILL_ATTRIBUTES: [wgpu::VertexAttribute; 2] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4];
 const LINE_ATTRIBUTES: [wgpu::VertexAttribute; 5] = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4, 3 => Unorm8x4, 4 => Float32];
 
 /// Everything about drawing that no picture changes.
 pub(super) struct Passes {
     pub background: wgpu::RenderPipeline,
     pub surface: wgpu::RenderPipeline,
+    pub fill: wgpu::RenderPipeline,
+    pub hidden_fill: wgpu::RenderPipeline,
     pub line: wgpu::RenderPipeline,
     pub hidden_line: wgpu::RenderPipeline,
     pub scene_layout: wgpu::BindGroupLayout,
@@ -54,18 +60,25 @@ impl Passes {
             })
         };
         let lines_module = module("lines.wgsl", LINES_WGSL);
-        let line_pass = |label, fragment, depth_compare| {
+        let fill_module = module("fill.wgsl", FILL_WGSL);
+        let blended = |label, source, entry_points, buffer, depth_compare| {
             let pass = Pass {
                 label,
-                module: &lines_module,
+                module: source,
                 layout: &scene_only,
-                entry_points: ["vs_line", fragment],
-                buffers: &[Some(line_buffer())],
+                entry_points,
+                buffers: &[Some(buffer)],
                 depth_compare,
                 depth_write: false,
                 blend: Some(wgpu::BlendState::ALPHA_BLENDING),
             };
             pipeline(device, &pass)
+        };
+        let line_pass = |label, fragment, depth_compare| {
+            blended(label, &lines_module, ["vs_line", fragment], line_buffer(), depth_compare)
+        };
+        let fill_pass = |label, fragment, depth_compare| {
+            blended(label, &fill_module, ["vs_fill", fragment], fill_buffer(), depth_compare)
         };
         let background = Pass {
             label: "background",
@@ -90,6 +103,12 @@ impl Passes {
         Self {
             background: pipeline(device, &background),
             surface: pipeline(device, &surface),
+            fill: fill_pass("fills", "fs_fill", wgpu::CompareFunction::LessEqual),
+            hidden_fill: fill_pass(
+                "hidden fills",
+                "fs_hidden_fill",
+                wgpu::CompareFunction::Greater,
+            ),
             line: line_pass("lines", "fs_line", wgpu::CompareFunction::LessEqual),
             hidden_line: line_pass(
                 "hidden lines",
@@ -144,6 +163,14 @@ fn surface_buffer() -> wgpu::VertexBufferLayout<'static> {
         array_stride: size_of::<SurfaceVertex>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &SURFACE_ATTRIBUTES,
+    }
+}
+
+fn fill_buffer() -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<FillVertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &FILL_ATTRIBUTES,
     }
 }
 

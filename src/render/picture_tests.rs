@@ -225,7 +225,7 @@ fn the_witness_sees_the_shot_cameras_body_and_frustum() {
     let trail = CameraTrail { eyes: vec![shot.eye], ..Default::default() };
     let frustum_depth = ShotCamera::frustum_depth_past(&shot, bounds);
     assert!((2.5..3.5).contains(&frustum_depth), "{frustum_depth} m");
-    let camera = ShotCamera { view: &shot, trail: &trail, frustum_depth };
+    let camera = ShotCamera { view: &shot, trail: &trail, frustum_depth, ghost: None };
     let options = bare(view_factor());
     let mut headless = headless();
     let picture = headless.witness_picture(&cloth, &[], &witness, &camera, &options).unwrap();
@@ -234,6 +234,87 @@ fn the_witness_sees_the_shot_cameras_body_and_frustum() {
     assert!(dark(&picture) > dark(&without) + 400, "{} px", dark(&picture));
     let body = witness.point_in_image(shot.eye + shot.back * 0.05).unwrap();
     assert!(picture.get_pixel(body.x as u32, body.y as u32).0[1] < 110);
+}
+
+#[test]
+fn the_ghost_of_the_shot_camera_is_fainter_than_the_camera() {
+    let view = overhead(SIZE);
+    let trail = CameraTrail::default();
+    // Both look across the picture from the left, one above the other.
+    let looking_right = |y: f64| {
+        let eye = DVec3::new(-0.4, y, 0.0);
+        look_at(eye, eye + DVec3::X, 10.0, SIZE)
+    };
+    let (now, later) = (looking_right(0.25), looking_right(-0.25));
+    let ink = |ghost: Option<&View>, rows: std::ops::Range<u32>| -> f64 {
+        let camera = ShotCamera { view: &now, trail: &trail, frustum_depth: 0.6, ghost };
+        let options = bare(ColourBy::Plain);
+        let picture =
+            headless().witness_picture(&frame([]), &[], &view, &camera, &options).unwrap();
+        // The lines of the frustum, without the body.
+        rows.flat_map(|y| (60..180).map(move |x| (x, y)))
+            .map(|(x, y)| 250.0 - f64::from(picture.get_pixel(x, y).0[0]))
+            .sum()
+    };
+    let (upper, lower) = (0..100, 100..200);
+    assert_eq!(ink(None, lower.clone()), 0.0);
+    assert_eq!(ink(Some(&now), upper.clone()), ink(None, upper.clone()), "it is not drawn twice");
+    let (now_ink, later_ink) = (ink(Some(&later), upper), ink(Some(&later), lower));
+    assert!(later_ink > 0.1 * now_ink && later_ink < 0.6 * now_ink, "{later_ink} of {now_ink}");
+}
+
+/// A face at a height that another one, at 0.3 m and above it, stands in.
+fn crossing_at(height: f64) -> crate::sim::Frame {
+    let lying = flat(&[[[-0.4, -0.4, height], [0.4, -0.4, height], [0.0, 0.4, height]]]);
+    let mut standing = flat(&[[[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0], [0.0, 0.1, 0.0]]]);
+    let heights = [-0.05, -0.05, 0.1].map(|z| z + height);
+    standing.position.iter_mut().zip(heights).for_each(|(p, z)| p.z = z);
+    frame([lying, standing])
+}
+
+fn magenta(image: &RgbaImage) -> usize {
+    count(image, |[r, g, b]| {
+        r > 120 && i32::from(r) > i32::from(g) + 60 && b > g.saturating_add(30)
+    })
+}
+
+#[test]
+fn crossing_faces_are_magenta_where_asked_for_and_shine_through_cloth_in_front() {
+    let off = bare(ColourBy::Plain);
+    let on = PictureOptions { crossings: CrossingMarks::Magenta, ..off.clone() };
+    let open = crossing_at(0.0);
+    let mut headless = headless();
+    let mut picture = |f: &_, o: &_| headless.picture(f, &[], &overhead(SIZE), o).unwrap();
+    assert_eq!(magenta(&picture(&open, &off)), 0);
+    let in_front = magenta(&picture(&open, &on));
+    // The lying face alone has 0.32 of 40,000 px.
+    assert!((12_000..14_500).contains(&in_front), "{in_front} px");
+
+    let mut covered = open.clone();
+    covered.garments.push(std::sync::Arc::new(square(0.3, 1.0)));
+    let (plain, marked) = (picture(&covered, &off), picture(&covered, &on));
+    let [reds, greens] = [0, 1].map(|channel| {
+        let at = |image: &RgbaImage| f32::from(image.get_pixel(100, 110).0[channel]);
+        at(&marked) - at(&plain)
+    });
+    assert!(reds - greens > 25.0, "red {reds}, green {greens}");
+    assert_eq!(magenta(&picture(&frame([square(0.0, 1.0)]), &on)), 0);
+}
+
+/// `cargo test --release -- --ignored --nocapture finding_crossings` prints what looking for
+/// crossings costs.
+#[test]
+#[ignore = "measures time"]
+fn finding_crossings_of_twenty_thousand_faces_takes_less_than_a_fifth_of_a_cpu_second() {
+    let cloth = frame([rippled(100)]);
+    let seconds = || {
+        let start = cpu_time::ProcessTime::now();
+        std::hint::black_box(Crossings::of(&cloth, &[]));
+        start.elapsed().as_secs_f64()
+    };
+    let best = (0..5).map(|_| seconds()).fold(f64::INFINITY, f64::min);
+    println!("crossings of 20,000 faces: {:.1} ms of CPU", best * 1e3);
+    assert!(best < 0.2, "{best} s");
 }
 
 #[test]
@@ -252,7 +333,23 @@ fn a_scene_far_from_the_origin_looks_the_same() {
 #[test]
 #[ignore = "measures time"]
 fn a_large_picture_takes_less_than_a_quarter_of_a_cpu_second() {
-    let rows = 100;
+    let cloth = frame([rippled(100)]);
+    let view = overhead([1280, 720]);
+    let mut headless = headless();
+    // CPU time: another program on the machine would spoil wall time.
+    let mut seconds = || {
+        let start = cpu_time::ProcessTime::now();
+        headless.picture(&cloth, &[], &view, &PictureOptions::default()).unwrap();
+        start.elapsed().as_secs_f64()
+    };
+    seconds();
+    let best = (0..10).map(|_| seconds()).fold(f64::INFINITY, f64::min);
+    println!("20,000 faces at 1280 x 720: {:.1} ms of CPU", best * 1e3);
+    assert!(best < 0.25, "{best} s");
+}
+
+/// A square of 1 m in waves, two faces to a cell.
+fn rippled(rows: i32) -> crate::mesh::Mesh {
     let cell = 1.0 / f64::from(rows);
     let corner = |i: i32, j: i32| {
         let (x, y) = (f64::from(i) * cell - 0.5, f64::from(j) * cell - 0.5);
@@ -266,17 +363,5 @@ fn a_large_picture_takes_less_than_a_quarter_of_a_cpu_second() {
             [[a, b, c], [a, c, d]]
         })
         .collect();
-    let cloth = frame([flat(&triangles)]);
-    let view = overhead([1280, 720]);
-    let mut headless = headless();
-    // CPU time: another program on the machine would spoil wall time.
-    let mut seconds = || {
-        let start = cpu_time::ProcessTime::now();
-        headless.picture(&cloth, &[], &view, &PictureOptions::default()).unwrap();
-        start.elapsed().as_secs_f64()
-    };
-    seconds();
-    let best = (0..10).map(|_| seconds()).fold(f64::INFINITY, f64::min);
-    println!("20,000 faces at 1280 x 720: {:.1} ms of CPU", best * 1e3);
-    assert!(best < 0.25, "{best} s");
+    flat(&triangles)
 }

@@ -6,7 +6,7 @@ use glam::DMat4;
 use crate::shot::View;
 
 use super::buffer::{GrowingBuffer, Storage};
-use super::draw_list::{DrawList, Line, Material, SurfaceVertex};
+use super::draw_list::{DrawList, FillVertex, Line, Material, SurfaceVertex};
 use super::gpu::{Gpu, RenderError};
 use super::passes::Passes;
 use super::target::{Attachments, Target};
@@ -25,6 +25,7 @@ pub struct Renderer {
     materials: GrowingBuffer,
     material_group: Option<wgpu::BindGroup>,
     vertices: GrowingBuffer,
+    fills: GrowingBuffer,
     lines: GrowingBuffer,
     attachments: Vec<Attachments>,
 }
@@ -56,6 +57,7 @@ impl Renderer {
             materials: GrowingBuffer::new("materials", wgpu::BufferUsages::UNIFORM),
             material_group: None,
             vertices: GrowingBuffer::new("surface vertices", wgpu::BufferUsages::VERTEX),
+            fills: GrowingBuffer::new("fills", wgpu::BufferUsages::VERTEX),
             lines: GrowingBuffer::new("lines", wgpu::BufferUsages::VERTEX),
             attachments: Vec::new(),
         }
@@ -101,6 +103,14 @@ impl Renderer {
                 first = end;
             }
         }
+        if let Some(fills) = self.fills.slice() {
+            let count = draw.fills.len() as u32;
+            pass.set_vertex_buffer(0, fills);
+            pass.set_pipeline(&self.passes.hidden_fill);
+            pass.draw(0..count, 0..1);
+            pass.set_pipeline(&self.passes.fill);
+            pass.draw(0..count, 0..1);
+        }
         if let Some(lines) = self.lines.slice() {
             let ground_count = draw.ground_lines.len() as u32;
             let count = ground_count + draw.overlay_lines.len() as u32;
@@ -129,6 +139,8 @@ impl Renderer {
         let vertices: Vec<&[SurfaceVertex]> =
             draw.surfaces.iter().map(|batch| batch.vertices.as_slice()).collect();
         self.vertices.write(gpu, &vertices);
+        let fills: [&[FillVertex]; 1] = [&draw.fills];
+        self.fills.write(gpu, &fills);
         let lines: [&[Line]; 2] = [&draw.ground_lines, &draw.overlay_lines];
         self.lines.write(gpu, &lines);
     }

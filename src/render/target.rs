@@ -53,6 +53,15 @@ impl TargetTexture {
         self.size
     }
 
+    /// To be painted in sRGB as it is stored, of [`WINDOW_FORMAT`].
+    pub(super) fn painted_view(&self) -> wgpu::TextureView {
+        self.texture.create_view(&wgpu::TextureViewDescriptor {
+            format: Some(WINDOW_FORMAT),
+            usage: Some(wgpu::TextureUsages::RENDER_ATTACHMENT),
+            ..Default::default()
+        })
+    }
+
     /// The picture as a window toolkit wants it, [`WINDOW_FORMAT`].
     pub fn window_view(&self) -> wgpu::TextureView {
         self.texture.create_view(&wgpu::TextureViewDescriptor {

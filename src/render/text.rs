@@ -67,6 +67,18 @@ pub fn text_width(face: Face, text: &str, size_px: f32) -> f32 {
     placed(face, text, size_px).1
 }
 
+/// The text, shortened with an ellipsis if it is wider than `room` (px).
+pub fn fitted_text((face, size_px): (Face, f32), text: &str, room: f32) -> String {
+    if text_width(face, text, size_px) <= room {
+        return text.to_owned();
+    }
+    let mut kept = text.to_owned();
+    while !kept.is_empty() && text_width(face, &format!("{kept}\u{2026}"), size_px) > room {
+        kept.pop();
+    }
+    format!("{}\u{2026}", kept.trim_end())
+}
+
 /// Writes one line with its baseline at `y` (px). What lies outside the image is cut off.
 pub fn draw_text(
     image: &mut RgbaImage,
@@ -126,6 +138,13 @@ mod tests {
         assert!(inked_columns(Align::Right).1 <= 60);
         let (first, last) = inked_columns(Align::Centre);
         assert!((first + last).abs_diff(120) <= 3);
+    }
+
+    #[test]
+    fn a_long_text_is_shortened_to_its_room() {
+        let text = fitted_text((Face::Sans, 20.0), "a title of far more than sixty pixels", 60.0);
+        assert!(text.ends_with('\u{2026}'));
+        assert!(text_width(Face::Sans, &text, 20.0) <= 60.0);
     }
 
     #[test]

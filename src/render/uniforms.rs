@@ -35,6 +35,8 @@ pub(super) const BACKGROUND_WGSL: &str = concat!(
 );
 pub(super) const SURFACE_WGSL: &str =
     concat!(include_str!("../../shaders/scene.wgsl"), include_str!("../../shaders/surface.wgsl"));
+pub(super) const FILL_WGSL: &str =
+    concat!(include_str!("../../shaders/scene.wgsl"), include_str!("../../shaders/fill.wgsl"));
 pub(super) const LINES_WGSL: &str =
     concat!(include_str!("../../shaders/scene.wgsl"), include_str!("../../shaders/lines.wgsl"));
 
@@ -70,7 +72,7 @@ mod tests {
 
     #[test]
     fn the_scene_has_the_shaders_layout() {
-        for wgsl in [BACKGROUND_WGSL, SURFACE_WGSL, LINES_WGSL] {
+        for wgsl in [BACKGROUND_WGSL, SURFACE_WGSL, FILL_WGSL, LINES_WGSL] {
             assert_mirrors!(
                 wgsl,
                 "Scene",

@@ -5,7 +5,9 @@ use image::{Rgba, RgbaImage};
 
 use super::layout::{CAPTION_HEIGHT, Layout, MARGIN, Place};
 use super::{Caption, SheetItem, SheetOptions};
-use crate::render::{Align, Face, Srgb, draw_legend, draw_text, legend_size, text_width};
+use crate::render::{
+    Align, Face, Srgb, draw_legend, draw_text, fitted_text, legend_size, text_width,
+};
 
 pub(super) const PAPER: Srgb = Srgb([250, 250, 249]);
 pub(super) const INK: Srgb = Srgb([30, 32, 36]);
@@ -63,9 +65,9 @@ fn draw_header(sheet: &mut RgbaImage, layout: &Layout, options: &SheetOptions, l
         draw_legend(sheet, options.colour_by, (i64::from(x), i64::from(MARGIN)), LEGEND_TEXT_PX);
         room -= legend[0] as f32;
     }
-    let title = fitted((Face::Sans, TITLE_PX), &options.title, room);
+    let title = fitted_text((Face::Sans, TITLE_PX), &options.title, room);
     draw_text(sheet, (Face::Sans, TITLE_PX), (left, top + 24.0), Align::Left, INK, &title);
-    let subtitle = fitted((Face::Sans, SUBTITLE_PX), &options.subtitle, room);
+    let subtitle = fitted_text((Face::Sans, SUBTITLE_PX), &options.subtitle, room);
     let place = (left, top + 48.0);
     draw_text(sheet, (Face::Sans, SUBTITLE_PX), place, Align::Left, FAINT, &subtitle);
 }
@@ -115,18 +117,6 @@ fn draw_caption(sheet: &mut RgbaImage, caption: &Caption, place: Place) {
     }
     let text = figures.join(SEPARATOR);
     draw_text(sheet, (Face::Sans, FIGURES_PX), (right, baseline), Align::Right, FAINT, &text);
-}
-
-/// The text, shortened with an ellipsis if it is wider than `room` (px).
-fn fitted((face, size_px): (Face, f32), text: &str, room: f32) -> String {
-    if text_width(face, text, size_px) <= room {
-        return text.to_owned();
-    }
-    let mut kept = text.to_owned();
-    while !kept.is_empty() && text_width(face, &format!("{kept}\u{2026}"), size_px) > room {
-        kept.pop();
-    }
-    format!("{}\u{2026}", kept.trim_end())
 }
 
 #[cfg(test)]
@@ -179,13 +169,6 @@ mod tests {
         };
         let middle = strip.x + strip.width / 2;
         assert!(columns(strip.x, middle) > 20 && columns(middle, strip.x + strip.width) > 60);
-    }
-
-    #[test]
-    fn a_long_title_is_shortened_to_its_room() {
-        let text = fitted((Face::Sans, 20.0), "a title of far more than sixty pixels", 60.0);
-        assert!(text.ends_with('\u{2026}'));
-        assert!(text_width(Face::Sans, &text, 20.0) <= 60.0);
     }
 
     #[test]
