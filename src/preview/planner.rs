@@ -1,0 +1,143 @@
+//! The thread that resolves shots and opens runs, so that nobody else waits for their files; between
+//! two wishes it looks whether files have changed.
+
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::{Duration, SystemTime};
+
+use super::message::{Event, Outbox};
+use super::{Edits, Plan};
+use crate::request::Request;
+use crate::run::RunReader;
+
+/// How often files are looked at.
+const LOOK_EVERY: Duration = Duration::from_secs(1);
+
+/// What is open.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    Shot(Request),
+    /// A folder that `simulate` wrote.
+    Run(PathBuf),
+}
+
+/// What has been opened.
+#[derive(Debug)]
+pub enum Opened {
+    Shot(Box<Plan>),
+    Run(Arc<RunReader>),
+}
+
+/// A handle to the thread; it ends when this is dropped.
+pub struct Planner {
+    wishes: Sender<(u64, Source, Edits)>,
+    last: u64,
+}
+
+impl Planner {
+    pub fn start(outbox: Outbox) -> Self {
+        let (wishes, queue) = channel();
+        thread::Builder::new()
+            .name("planner".into())
+            .spawn(move || work(&queue, &outbox))
+            .expect("the system starts threads");
+        Self { wishes, last: 0 }
+    }
+
+    /// Opens a source, then says [`Event::Planned`] with the number returned here. Of several wishes
+    /// that wait only the last is met.
+    pub fn open(&mut self, source: Source, edits: Edits) -> u64 {
+        self.last += 1;
+        // The thread is there as long as this is.
+        let _ = self.wishes.send((self.last, source, edits));
+        self.last
+    }
+}
+
+fn work(queue: &Receiver<(u64, Source, Edits)>, outbox: &Outbox) {
+    let mut watch = Watch::default();
+    loop {
+        match queue.recv_timeout(LOOK_EVERY) {
+            Ok(mut wish) => {
+                while let Ok(later) = queue.try_recv() {
+                    wish = later;
+                }
+                let (request, source, edits) = wish;
+                let opened = catch_unwind(AssertUnwindSafe(|| opened(&source, &edits)))
+                    .unwrap_or_else(|_| Err("the shot cannot be read".to_owned()));
+                if let Ok(opened) = &opened {
+                    watch = Watch::over(opened);
+                }
+                outbox.send(Event::Planned { request, opened });
+            }
+            Err(RecvTimeoutError::Timeout) => {
+                let paths = watch.changed();
+                if !paths.is_empty() {
+                    outbox.send(Event::FilesChanged { paths });
+                }
+            }
+            Err(RecvTimeoutError::Disconnected) => return,
+        }
+    }
+}
+
+fn opened(source: &Source, edits: &Edits) -> Result<Opened, String> {
+    match source {
+        Source::Shot(request) => {
+            let plan = Plan::new(request, edits).map_err(|error| error.to_string())?;
+            Ok(Opened::Shot(Box::new(plan)))
+        }
+        Source::Run(folder) => {
+            let reader = RunReader::open(folder).map_err(|error| chain(&error))?;
+            Ok(Opened::Run(Arc::new(reader)))
+        }
+    }
+}
+
+/// An error with its causes, on one line.
+fn chain(error: &dyn std::error::Error) -> String {
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        text.push_str(&format!(": {error}"));
+        cause = error.source();
+    }
+    text
+}
+
+/// Files and when they were last written.
+#[derive(Default)]
+struct Watch {
+    files: Vec<(PathBuf, Option<SystemTime>)>,
+}
+
+impl Watch {
+    fn over(opened: &Opened) -> Self {
+        let Opened::Shot(plan) = opened else { return Self::default() };
+        // Those that the program carries are no files, and never change.
+        let real = plan.files().filter(|path| path.is_file());
+        Self { files: real.map(|path| (path.clone(), written(path))).collect() }
+    }
+
+    /// Files written since the last call.
+    fn changed(&mut self) -> Vec<PathBuf> {
+        let mut changed = Vec::new();
+        for (path, before) in &mut self.files {
+            let now = written(path);
+            // A file that is gone for a moment is being replaced.
+            if now.is_some() && now != *before {
+                *before = now;
+                changed.push(path.clone());
+            }
+        }
+        changed
+    }
+}
+
+fn written(path: &Path) -> Option<SystemTime> {
+    fs::metadata(path).and_then(|about| about.modified()).ok()
+}

@@ -1,0 +1,182 @@
+//! Files: opened, reloaded, saved.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::{Occasion, Previewer};
+use crate::own_shot::own_shot_parts;
+use crate::preview::action::Action;
+use crate::preview::camera_edit::camera_setting;
+use crate::preview::history::Version;
+use crate::preview::planner::Source;
+use crate::preview::save::{rebased, saved_text, seen_from, wrapped_text};
+use crate::preview::state::Level;
+use crate::preview::{Edits, Plan};
+use crate::request::Request;
+use crate::sim::SizingMode;
+
+impl Previewer {
+    pub(super) fn act_on_files(&mut self, action: Action) {
+        match action {
+            Action::Open { path } => self.open(Some(path)),
+            Action::OpenOwn => self.open(None),
+            Action::Reload => {
+                self.ask(self.source.clone(), Occasion::Change);
+            }
+            Action::IgnoreChanges => self.ignored_files.append(&mut self.changed_files),
+            Action::Save => self.save(None),
+            Action::SaveAs { path } => self.save(Some(path)),
+            other => unreachable!("{other:?} is about other things"),
+        }
+    }
+
+    /// What was open stays until the new shot turns out to be one.
+    fn open(&mut self, path: Option<PathBuf>) {
+        let source = match path {
+            Some(path) if path.is_dir() => Source::Run(path),
+            shot => Source::Shot(Request {
+                shot,
+                camera: None,
+                sets: Vec::new(),
+                fps: None,
+                frames: None,
+                sizing: SizingMode::View,
+            }),
+        };
+        self.open_with(source);
+    }
+
+    /// Into the shot's own file, or into another, which is then the one that is open.
+    fn save(&mut self, to: Option<PathBuf>) {
+        match self.saved(to) {
+            Ok((path, request)) => {
+                self.state.say(Level::Note, format!("saved {:?}", path.display()));
+                // What is in the file now is no edit any more; the frames are the same.
+                self.state.version =
+                    Version { edits: Edits::default(), ..self.state.version.clone() };
+                self.state.history = Default::default();
+                // Its settings were those over the file as it was.
+                (self.state.a, self.state.wipe) = (None, None);
+                self.ask(Source::Shot(request), Occasion::Change);
+            }
+            Err(why) => self.state.say(Level::Error, why),
+        }
+    }
+
+    fn saved(&self, to: Option<PathBuf>) -> Result<(PathBuf, Request), String> {
+        let Source::Shot(request) = &self.source else {
+            return Err("a finished run has no settings to save".to_owned());
+        };
+        let mut edits = with_overrides(request, self.plan.as_deref())?;
+        for (path, value) in self.state.version.edits.iter() {
+            edits.set(path, value.clone());
+        }
+        let from = request.shot.as_deref();
+        let (to, from) = match (to, from) {
+            (Some(to), Some(from)) => (to, from),
+            (None, Some(from)) => (from.to_owned(), from),
+            (Some(to), None) => {
+                write_own_shot(&to, &edits)?;
+                let request =
+                    Request { shot: Some(to.clone()), sets: Vec::new(), ..request.clone() };
+                return Ok((to, request));
+            }
+            (None, None) => {
+                return Err("the program's own shot is part of the program: Save as writes a copy"
+                    .to_owned());
+            }
+        };
+        let text = shot_text(from, &to, &edits)?;
+        write_whole(&to, &text)?;
+        let request =
+            Request { shot: Some(to.clone()), camera: None, sets: Vec::new(), ..request.clone() };
+        Ok((to, request))
+    }
+}
+
+/// What the command line changed about the shot is saved with it.
+fn with_overrides(request: &Request, plan: Option<&Plan>) -> Result<Edits, String> {
+    let mut edits = Edits::default();
+    for set in &request.sets {
+        let (path, value) = set.split_once('=').ok_or_else(|| format!("{set:?} is no override"))?;
+        // As the command line has it: what is no JSON is a string.
+        let value = serde_json::from_str(value.trim()).unwrap_or_else(|_| value.trim().into());
+        edits.set(path.trim(), value);
+    }
+    if let Some(camera) = &request.camera {
+        let camera = std::path::absolute(camera).unwrap_or_else(|_| camera.clone());
+        let path = plan.map_or("camera", |plan| camera_setting(&plan.requested.written));
+        edits.set(path, camera.to_string_lossy().into_owned().into());
+    }
+    Ok(edits)
+}
+
+/// The text of a shot with edits, for a file that may lie elsewhere than the one it is read from.
+fn shot_text(from: &Path, to: &Path, edits: &Edits) -> Result<String, String> {
+    let original = fs::read_to_string(from)
+        .map_err(|error| format!("cannot read {:?}: {error}", from.display()))?;
+    let folder = |path: &Path| {
+        let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        fs::canonicalize(folder)
+            .map_err(|error| format!("cannot write to {:?}: {error}", folder.display()))
+    };
+    let (from_folder, to_folder) = (folder(from)?, folder(to)?);
+    if is_native(&original) {
+        let text = saved_text(&original, edits).map_err(|error| error.to_string())?;
+        if from_folder == to_folder {
+            return Ok(text);
+        }
+        return rebased(&text, &from_folder, &to_folder).map_err(|error| error.to_string());
+    }
+    let scene = from_folder.join(from.file_name().unwrap_or_default());
+    if to.file_name() == from.file_name() && to_folder == from_folder {
+        return Err(format!(
+            "{:?} is an ARCSim scene, which is never written to: use Save as for a shot that imports it",
+            from.display()
+        ));
+    }
+    wrapped_text(&seen_from(&to_folder, &scene), edits).map_err(|error| error.to_string())
+}
+
+/// A copy of the program's own shot with edits, and beside it the files that it names. Files of other
+/// content that are there already are not written over.
+fn write_own_shot(to: &Path, edits: &Edits) -> Result<(), String> {
+    let folder = to.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let (text, files) = own_shot_parts();
+    let original = String::from_utf8_lossy(text);
+    let text = saved_text(&original, edits).map_err(|error| error.to_string())?;
+    for (name, contents) in files {
+        let path = folder.join(name);
+        let cannot = |error| format!("cannot write {:?}: {error}", path.display());
+        match fs::read(&path) {
+            Ok(there) if there == contents => continue,
+            Ok(_) => return Err(format!("there is another {:?} already", path.display())),
+            Err(_) => {}
+        }
+        fs::create_dir_all(path.parent().unwrap_or(folder)).map_err(cannot)?;
+        fs::write(&path, contents).map_err(cannot)?;
+    }
+    write_whole(to, &text)
+}
+
+/// Whether a text is a native shot, not a scene to import.
+fn is_native(text: &str) -> bool {
+    crate::scene::from_json::<serde_json::Value>("shot", text)
+        .is_ok_and(|value| value.get("shotsilk").is_some())
+}
+
+/// The file is the old one or the new one, never a part.
+fn write_whole(path: &Path, text: &str) -> Result<(), String> {
+    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let write = || {
+        let mut file = tempfile::NamedTempFile::new_in(folder)?;
+        file.write_all(text.as_bytes())?;
+        if let Ok(about) = fs::metadata(path) {
+            file.as_file().set_permissions(about.permissions())?;
+        }
+        file.persist(path).map_err(|error| error.error)?;
+        Ok::<(), std::io::Error>(())
+    };
+    write().map_err(|error| format!("cannot write {:?}: {error}", path.display()))
+}

@@ -1,0 +1,384 @@
+//! Frames: made by the engine, kept by the keeper, shown where they belong.
+
+use std::sync::Arc;
+
+use super::{Awaited, Effect, Occasion, Previewer, Work};
+use crate::preview::Plan;
+use crate::preview::engine::{Job, JobId};
+use crate::preview::key::{FrameKey, step_keys};
+use crate::preview::message::Event;
+use crate::preview::planner::Opened;
+use crate::preview::scenery::Scenery;
+use crate::preview::state::{Level, Playback};
+use crate::preview::store::Place;
+use crate::preview::timeline::{Cost, Timeline};
+use crate::run::RunReader;
+use crate::sim::{Frame, SizingMode};
+
+/// Frames on disk are read ahead until they fill this share of the memory, so that costs are known
+/// and scrubbing is immediate.
+const READ_AHEAD_SHARE: f64 = 0.8;
+
+impl Previewer {
+    pub(super) fn take(&mut self, event: Event) {
+        match event {
+            Event::Planned { request, opened } => self.take_plan(request, opened),
+            Event::FilesChanged { paths } => {
+                self.changed_files.extend(paths);
+                self.changed_files.sort();
+                self.changed_files.dedup();
+            }
+            Event::Simulated { job, key, frame } => self.take_frame(job, key, frame),
+            Event::Finished { job } if self.is_in_work(job) => {
+                self.job = None;
+                self.pursue();
+            }
+            Event::Finished { .. } => {}
+            Event::Failed { job, frame, why } if self.is_in_work(job) => {
+                self.job = None;
+                self.state.simulating = false;
+                let shown = self.scenery.as_ref().map_or(0, |s| s.shown(frame));
+                let text = format!("the simulation stopped before frame {shown}: {why}");
+                self.state.say(Level::Error, text);
+            }
+            Event::Failed { .. } => {}
+            Event::Rival(event) => self.take_rival(*event),
+            Event::Loaded { key, frame } => self.take_loaded(key, frame),
+            Event::Found { keys } => self.take_found(keys),
+            Event::Kept { key } => self.store.note_on_disk(key),
+            Event::CannotKeep { why } => {
+                self.has_kept_failure = true;
+                self.store.note_disk_full();
+                let text = format!("frames are not kept beyond the end of the program: {why}");
+                self.state.say(Level::Warning, text);
+            }
+        }
+    }
+
+    fn take_plan(&mut self, request: u64, opened: Result<Opened, String>) {
+        let Some(awaited) = self.awaited.take_if(|awaited| awaited.request == request) else {
+            // A later one is on its way.
+            return;
+        };
+        match opened {
+            Ok(opened) => self.take_opened(opened, awaited),
+            Err(why) => {
+                self.state.history.forget(&self.proved);
+                self.state.version = self.proved.clone();
+                self.state.say(Level::Error, why);
+                self.pursue();
+            }
+        }
+        self.act_on_deferred();
+    }
+
+    fn take_opened(&mut self, opened: Opened, awaited: Awaited) {
+        let is_new = awaited.occasion == Occasion::Opening || self.scenery.is_none();
+        let is_renamed = is_new || self.source != awaited.source;
+        self.source = awaited.source;
+        self.proved = self.state.version.clone();
+        self.changed_files.clear();
+        if !std::mem::take(&mut self.ignored_files).is_empty() && !is_new {
+            let text = "files that had changed on disk were read again with this change";
+            self.state.say(Level::Note, text);
+        }
+        match opened {
+            Opened::Shot(plan) => self.follow(Arc::from(plan), is_new),
+            Opened::Run(run) => self.show_run(run),
+        }
+        if is_renamed {
+            self.effects.push(Effect::Opened(self.source.clone()));
+        }
+    }
+
+    fn follow(&mut self, plan: Arc<Plan>, is_new: bool) {
+        let scenery = Scenery::of_plan(&plan);
+        if is_new {
+            self.forget_what_was_open(scenery.last);
+            for warning in &plan.requested.warnings {
+                self.state.say(Level::Warning, warning.clone());
+            }
+        } else {
+            let before = self.scenery.as_ref().map_or(scenery.last, |s| s.last);
+            self.state.playback = self.state.playback.with_last(before, scenery.last);
+        }
+        self.scenery = Some(Arc::new(scenery));
+        self.plan = Some(plan);
+        self.run = None;
+        self.refresh();
+        self.end_stale_job();
+        let missing = self.timeline.wanted_keys().filter(|&key| !self.store.has(key)).collect();
+        // Nothing is simulated that lies on disk: the answer sets the engine to work.
+        self.keeper.look(missing);
+        self.follow_rival();
+    }
+
+    fn show_run(&mut self, run: Arc<RunReader>) {
+        let scenery = Scenery::of_run(&run);
+        self.forget_what_was_open(scenery.last);
+        self.timeline =
+            Timeline::of_run(scenery.last, run.frames(), &run.info().input_hash, &identity(&run));
+        self.scenery = Some(Arc::new(scenery));
+        self.plan = None;
+        self.run = Some(run);
+        self.refresh_shown();
+        self.read_ahead();
+    }
+
+    fn forget_what_was_open(&mut self, last: u32) {
+        self.halt();
+        self.state.playback = Playback::of(last);
+        self.state.history = Default::default();
+        self.state.a = None;
+        self.state.wipe = None;
+        self.state.witness = None;
+        self.state.dragged_camera = None;
+        self.timeline = Timeline::default();
+        self.shown = None;
+        self.shown_of_a = None;
+        self.played_from = None;
+        self.loading.clear();
+    }
+
+    /// Holds the timeline against the plan, after either or the store has changed.
+    pub(super) fn refresh(&mut self) {
+        if let Some(plan) = &self.plan {
+            self.timeline.follow(plan, self.state.version.anchor.as_ref(), &self.store);
+        }
+        self.refresh_shown();
+    }
+
+    /// Sets the engine to work on the first frame that is wanted and not there.
+    pub(super) fn pursue(&mut self) {
+        if !self.state.simulating || self.job.is_some() || self.awaited.is_some() {
+            return;
+        }
+        let Some(plan) = self.plan.clone() else { return };
+        let Some((first, frames)) = self.timeline.gap(&self.store) else { return };
+        let start = match first.checked_sub(1) {
+            None => None,
+            Some(before) => match self.start_frame(before) {
+                Some(frame) => Some(frame),
+                // It is being read, or nothing can be made from it.
+                None => return,
+            },
+        };
+        let scene = plan.requested.scene.clone();
+        let keys = frames.clone();
+        let job = Job { scene, settings: plan.settings(), start, frames };
+        self.job = Some(Work { id: self.engine.begin(job), keys });
+    }
+
+    fn is_in_work(&self, job: JobId) -> bool {
+        self.job.as_ref().is_some_and(|work| work.id == job)
+    }
+
+    /// Ends a job that does not make just what is to be made next.
+    fn end_stale_job(&mut self) {
+        let Some(work) = &self.job else { return };
+        let gap = self.timeline.gap(&self.store);
+        let wanted = gap.map_or(Vec::new(), |(_, frames)| frames);
+        let is_wanted = !wanted.is_empty()
+            && work.keys.len() >= wanted.len()
+            && work.keys.iter().rev().zip(wanted.iter().rev()).all(|(a, b)| a == b);
+        if !is_wanted {
+            self.halt();
+        }
+    }
+
+    /// Ends the job in work within a step.
+    pub(super) fn halt(&mut self) {
+        self.engine.stop();
+        self.job = None;
+    }
+
+    /// The frame to go on from, if it is at hand.
+    fn start_frame(&mut self, number: u32) -> Option<Arc<Frame>> {
+        let anchor = self.state.version.anchor.as_ref().filter(|anchor| anchor.frame == number);
+        let key = anchor.map(|anchor| anchor.key).or_else(|| self.timeline.wanted(number))?;
+        match self.store.find(key) {
+            Place::Memory(frame) => Some(frame),
+            Place::Disk => {
+                self.load(key, number);
+                None
+            }
+            Place::Nowhere => {
+                // Only an anchor can be lost: all else is made again.
+                self.state.version.anchor = None;
+                self.state.say(Level::Warning, "the frame to go on from is lost: from the start");
+                self.refresh();
+                self.pursue();
+                None
+            }
+        }
+    }
+
+    pub(super) fn simulate(&mut self, on: bool) {
+        self.state.simulating = on;
+        if on {
+            self.pursue();
+        } else {
+            self.halt();
+        }
+    }
+
+    fn take_frame(&mut self, job: JobId, key: FrameKey, frame: Arc<Frame>) {
+        self.simulated += 1;
+        let shown = self.scenery.as_ref().map_or(0, |s| s.shown(frame.number));
+        for warning in &frame.report.warnings {
+            self.state.say(Level::Warning, format!("frame {shown}: {warning}"));
+        }
+        let hash = self.plan.as_ref().map_or("", |plan| plan.settings_hash()).to_owned();
+        let (number, cost) = (frame.number, Cost::of(&frame));
+        self.take_in(key, frame.clone());
+        if self.cache.is_some() && !self.has_kept_failure {
+            self.store.note_coming(key);
+            self.keeper.keep(key, frame);
+        }
+        self.timeline.put(number, key, &hash, cost);
+        self.timeline.note_cost(key, cost);
+        if !self.is_in_work(job) {
+            // A plan that came meanwhile may want just this frame.
+            self.pursue();
+        }
+        self.refresh_shown();
+    }
+
+    /// Into the store; what this pushes out and is nowhere else is gone.
+    fn take_in(&mut self, key: FrameKey, frame: Arc<Frame>) {
+        let lost = self.store.insert(key, frame);
+        if lost.is_empty() {
+            return;
+        }
+        lost.iter().for_each(|&key| self.timeline.forget(key));
+        // Made again, they would push out others, without end.
+        self.simulate(false);
+        let megabytes = self.store.budget() >> 20;
+        let text = format!(
+            "the frames do not fit into {megabytes} MB of memory and cannot be kept on disk: the \
+             simulation is halted"
+        );
+        self.state.say(Level::Warning, text);
+    }
+
+    fn take_loaded(&mut self, key: FrameKey, frame: Result<Arc<Frame>, String>) {
+        self.loading.remove(&key);
+        match frame {
+            Ok(frame) => {
+                self.timeline.note_cost(key, Cost::of(&frame));
+                self.store.note_on_disk(key);
+                self.take_in(key, frame);
+            }
+            Err(why) => {
+                self.store.note_lost(key);
+                self.timeline.forget(key);
+                self.state.say(Level::Warning, format!("{why}: the frame is made again"));
+                self.refresh();
+            }
+        }
+        self.refresh_shown();
+        self.pursue();
+        if self.loading.is_empty() {
+            self.read_ahead();
+        }
+    }
+
+    fn take_found(&mut self, keys: Vec<FrameKey>) {
+        keys.iter().for_each(|&key| self.store.note_on_disk(key));
+        self.refresh();
+        self.end_stale_job();
+        self.pursue();
+        self.read_ahead();
+    }
+
+    /// Asks for the next frame that is on disk alone, while there is room.
+    fn read_ahead(&mut self) {
+        let room = (self.store.budget() as f64 * READ_AHEAD_SHARE) as u64;
+        if self.store.used() >= room {
+            return;
+        }
+        let unread = |&number: &u32| {
+            let slot = self.timeline.slot(number);
+            slot.is_some_and(|slot| !self.store.is_in_memory(slot.key))
+        };
+        if let Some(number) = (0..self.timeline.len() as u32).find(unread) {
+            let key = self.timeline.slot(number).expect("found just now").key;
+            self.load(key, number);
+        }
+    }
+
+    /// Has a frame read, once.
+    pub(super) fn load(&mut self, key: FrameKey, number: u32) {
+        if !self.loading.insert(key) {
+            return;
+        }
+        match &self.run {
+            Some(run) => self.keeper.load_of_run(key, run.clone(), number),
+            None => self.keeper.load(key),
+        }
+    }
+
+    pub(super) fn set_memory(&mut self, megabytes: u64) {
+        let lost = self.store.set_budget(megabytes.max(1) << 20);
+        lost.iter().for_each(|&key| self.timeline.forget(key));
+        self.refresh_shown();
+    }
+
+    /// Begins or ends the simulation for its costs.
+    pub(super) fn measure_adaptive(&mut self, on: bool) {
+        self.rival.on = on;
+        self.follow_rival();
+    }
+
+    /// Costs of other settings are forgotten; those that are asked for are measured.
+    fn follow_rival(&mut self) {
+        let Some(plan) = self.plan.clone() else { return };
+        let mut requested = plan.requested.clone();
+        requested.settings.sizing = SizingMode::Adaptive;
+        let after = |parent: &mut Option<FrameKey>, step| {
+            *parent = Some(FrameKey::after(*parent, step));
+            *parent
+        };
+        let keys: Vec<FrameKey> =
+            step_keys(&requested, plan.last()).into_iter().scan(None, after).collect();
+        if self.rival.keys != keys {
+            self.rival.costs = vec![None; keys.len()];
+            self.rival.keys = keys.clone();
+            self.end_rival();
+        }
+        if !self.rival.on {
+            self.end_rival();
+        } else if self.rival.job.is_none() && self.rival.costs.contains(&None) {
+            let (scene, settings) = (requested.scene.clone(), requested.settings);
+            let job = Job { scene, settings, start: None, frames: keys };
+            self.rival.job = Some(self.rival.engine.begin(job));
+        }
+    }
+
+    fn end_rival(&mut self) {
+        self.rival.engine.stop();
+        self.rival.job = None;
+    }
+
+    fn take_rival(&mut self, event: Event) {
+        match event {
+            Event::Simulated { job, frame, .. } if self.rival.job == Some(job) => {
+                if let Some(cost) = self.rival.costs.get_mut(frame.number as usize) {
+                    *cost = Some(Cost::of(&frame));
+                }
+            }
+            Event::Finished { job } if self.rival.job == Some(job) => self.rival.job = None,
+            Event::Failed { job, why, .. } if self.rival.job == Some(job) => {
+                self.rival.job = None;
+                self.state.say(Level::Warning, format!("the adaptive run stopped: {why}"));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// What tells a run from all others: where it is, and what made it from what.
+fn identity(run: &RunReader) -> String {
+    let info = run.info();
+    format!("{} {} {}", run.dir().display(), info.program_version, info.input_hash)
+}

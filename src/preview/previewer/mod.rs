@@ -1,0 +1,389 @@
+//! The previewer at work: the state, and the threads that plan, simulate and keep for it.
+//!
+//! Three calls drive it, all of which return at once: [`Previewer::act`] does what a user asks,
+//! [`Previewer::receive`] takes in what the threads have done, [`Previewer::tick`] moves time on.
+
+mod camera;
+mod files;
+mod frames;
+mod settings;
+mod time;
+
+use std::collections::{HashSet, VecDeque};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::Receiver;
+
+use super::Plan;
+use super::action::{Action, Export};
+use super::engine::{Engine, JobId};
+use super::history::Version;
+use super::keeper::Keeper;
+use super::key::FrameKey;
+use super::message::{Event, Outbox, Wake};
+use super::navigate::EyeAndTarget;
+use super::planner::{Planner, Source};
+use super::reader::FrameReader;
+use super::scenery::Scenery;
+use super::state::{Level, Look, State};
+use super::store::FrameStore;
+use super::timeline::{Cost, Timeline};
+use crate::run::{RunInfo, RunReader};
+use crate::sim::Frame;
+
+pub use time::Shown;
+
+/// How a previewer begins.
+pub struct Start {
+    pub source: Source,
+    pub look: Look,
+    /// Where frames are kept; `None` keeps none beyond the program's end.
+    pub cache: Option<PathBuf>,
+    /// Memory for frames (bytes).
+    pub memory: u64,
+    /// Whether to simulate without being asked.
+    pub simulating: bool,
+    pub wake: Wake,
+}
+
+/// What an action asks of whoever owns windows and pictures.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Effect {
+    Export(Export),
+    CancelExport,
+    /// Size of text and controls.
+    Scale(f32),
+    /// Puts the cloth of the current frame into the witness's view.
+    FrameCloth,
+    /// What is open has changed its name: for the window's title and the list of recent files.
+    Opened(Source),
+    Quit,
+}
+
+/// See the module.
+pub struct Previewer {
+    state: State,
+    source: Source,
+    scenery: Option<Arc<Scenery>>,
+    plan: Option<Arc<Plan>>,
+    run: Option<Arc<RunReader>>,
+    timeline: Timeline,
+    store: FrameStore,
+
+    planner: Planner,
+    /// The plan that is awaited, and for what.
+    awaited: Option<Awaited>,
+    /// The version of the plan that is in force: what is returned to if another cannot be.
+    proved: Version,
+    /// What has to wait for a plan, and where the user was when asking for it.
+    deferred: VecDeque<Deferred>,
+    engine: Engine,
+    job: Option<Work>,
+    keeper: Keeper,
+    cache: Option<PathBuf>,
+    loading: HashSet<FrameKey>,
+    rival: Rival,
+    events: Receiver<Event>,
+
+    shown: Option<Shown>,
+    shown_of_a: Option<(u32, Arc<Frame>)>,
+    /// When playback began, and at which frame.
+    played_from: Option<(f64, u32)>,
+    effects: Vec<Effect>,
+    /// Files that have changed on disk since they were read.
+    changed_files: Vec<PathBuf>,
+    /// Those of them that the user would not have read again.
+    ignored_files: Vec<PathBuf>,
+    /// Counts the frames that were simulated.
+    simulated: u64,
+    has_kept_failure: bool,
+}
+
+/// What the engine has been told to make.
+struct Work {
+    id: JobId,
+    keys: Vec<FrameKey>,
+}
+
+/// What a plan was asked for.
+struct Awaited {
+    request: u64,
+    source: Source,
+    occasion: Occasion,
+}
+
+/// Why a plan is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Occasion {
+    /// Something else is opened.
+    Opening,
+    /// What is open has been changed, read again or saved.
+    Change,
+}
+
+/// An action that builds upon the plan in force, asked for while another is awaited.
+struct Deferred {
+    action: Action,
+    current: u32,
+    dragged_camera: Option<EyeAndTarget>,
+}
+
+/// A second simulation of the shot, whoever looks: for its costs alone.
+struct Rival {
+    engine: Engine,
+    job: Option<JobId>,
+    costs: Vec<Option<Cost>>,
+    /// Of the frames that the costs are those of.
+    keys: Vec<FrameKey>,
+    on: bool,
+}
+
+impl Previewer {
+    /// Opens what it is told to; that, too, happens in the background.
+    pub fn start(start: Start) -> Self {
+        let (outbox, events) = Outbox::new(start.wake);
+        let mut previewer = Self {
+            state: State { look: start.look, simulating: start.simulating, ..State::default() },
+            source: start.source.clone(),
+            scenery: None,
+            plan: None,
+            run: None,
+            timeline: Timeline::default(),
+            store: FrameStore::new(start.memory),
+            planner: Planner::start(outbox.clone()),
+            awaited: None,
+            proved: Version::default(),
+            deferred: VecDeque::new(),
+            engine: Engine::start("simulation", outbox.clone()),
+            job: None,
+            keeper: Keeper::start(start.cache.clone(), outbox.clone()),
+            cache: start.cache,
+            loading: HashSet::new(),
+            rival: Rival {
+                engine: Engine::start("adaptive", outbox.for_rival()),
+                job: None,
+                costs: Vec::new(),
+                keys: Vec::new(),
+                on: false,
+            },
+            events,
+            shown: None,
+            shown_of_a: None,
+            played_from: None,
+            effects: Vec::new(),
+            changed_files: Vec::new(),
+            ignored_files: Vec::new(),
+            simulated: 0,
+            has_kept_failure: false,
+        };
+        previewer.ask(start.source, Occasion::Opening);
+        previewer
+    }
+
+    /// Does what a user asks. Returns at once; what takes time is done by a thread, and what builds upon
+    /// a plan that is not there yet is done when it is.
+    pub fn act(&mut self, action: Action) {
+        if self.awaited.is_some() && action.needs_the_plan() {
+            let (current, dragged_camera) =
+                (self.state.playback.current, self.state.dragged_camera);
+            self.deferred.push_back(Deferred { action, current, dragged_camera });
+            return;
+        }
+        if action.gives_up_edits() && !self.state.version.edits.is_empty() {
+            self.state.unsaved = Some(action);
+            return;
+        }
+        self.carry_out(action);
+    }
+
+    /// What was deferred, until one of it asks for a plan again.
+    fn act_on_deferred(&mut self) {
+        while self.awaited.is_none()
+            && let Some(deferred) = self.deferred.pop_front()
+        {
+            let now = (self.state.playback.current, self.state.dragged_camera);
+            (self.state.playback.current, self.state.dragged_camera) =
+                (deferred.current, deferred.dragged_camera);
+            self.carry_out(deferred.action);
+            (self.state.playback.current, self.state.dragged_camera) = now;
+        }
+    }
+
+    fn carry_out(&mut self, action: Action) {
+        match action {
+            Action::Play
+            | Action::Pause
+            | Action::PlayOrPause
+            | Action::Step { .. }
+            | Action::GoTo { .. }
+            | Action::GoToStart
+            | Action::GoToEnd
+            | Action::GoToKey { .. }
+            | Action::SetIn { .. }
+            | Action::SetOut { .. }
+            | Action::ClearRange
+            | Action::SetLooping { .. } => self.act_on_time(action),
+
+            Action::Set { .. }
+            | Action::Reset { .. }
+            | Action::ResetAll
+            | Action::SetReach { .. }
+            | Action::ReRun
+            | Action::Undo
+            | Action::Redo
+            | Action::KeepAsA
+            | Action::Compare { .. }
+            | Action::SwapAAndB => self.act_on_settings(action),
+
+            Action::UnlockCamera { .. }
+            | Action::MoveCamera { .. }
+            | Action::SetKey
+            | Action::DeleteKey { .. }
+            | Action::MoveKey { .. }
+            | Action::SetCut { .. }
+            | Action::SetFocalLength { .. }
+            | Action::SetFieldOfView { .. }
+            | Action::MakeKeys { .. } => self.act_on_camera(action),
+
+            Action::Open { .. }
+            | Action::OpenOwn
+            | Action::Reload
+            | Action::IgnoreChanges
+            | Action::Save
+            | Action::SaveAs { .. } => self.act_on_files(action),
+
+            Action::SetLayout { layout } => self.state.look.layout = layout,
+            Action::SetColour { colour } => self.state.look.colour = colour,
+            Action::SetOverlay { overlay, on } => *self.state.look.overlay_mut(overlay) = on,
+            Action::SetPanel { panel, open } => *self.state.look.panel_mut(panel) = open,
+            Action::SetWitness { eye, target } => {
+                self.state.witness = Some(EyeAndTarget { eye, target });
+            }
+            Action::ResetWitness => self.state.witness = None,
+            Action::FrameCloth => self.effects.push(Effect::FrameCloth),
+
+            Action::Simulate { on } => self.simulate(on),
+            Action::MeasureAdaptive { on } => self.measure_adaptive(on),
+            Action::Export { export } => self.effects.push(Effect::Export(export)),
+            Action::CancelExport => self.effects.push(Effect::CancelExport),
+            Action::SetMemory { megabytes } => self.set_memory(megabytes),
+            Action::SetScale { scale } => self.effects.push(Effect::Scale(scale)),
+            Action::DismissMessage { index } => {
+                if index < self.state.messages.len() {
+                    self.state.messages.remove(index);
+                }
+            }
+            Action::Quit => self.effects.push(Effect::Quit),
+            Action::GiveUpEdits { yes } => {
+                if let Some(action) = self.state.unsaved.take().filter(|_| yes) {
+                    self.carry_out(action);
+                }
+            }
+        }
+    }
+
+    /// Takes in what the threads have done; true if anything was.
+    pub fn receive(&mut self) -> bool {
+        let mut any = false;
+        while let Ok(event) = self.events.try_recv() {
+            any = true;
+            self.take(event);
+        }
+        any
+    }
+
+    /// What actions have asked of others since the last call.
+    pub fn take_effects(&mut self) -> Vec<Effect> {
+        std::mem::take(&mut self.effects)
+    }
+
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// `None` while the first shot is being opened, or could not be.
+    pub fn scenery(&self) -> Option<&Arc<Scenery>> {
+        self.scenery.as_ref()
+    }
+
+    /// `None` for a run, which nothing can be changed about.
+    pub fn plan(&self) -> Option<&Arc<Plan>> {
+        self.plan.as_ref()
+    }
+
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    pub fn timeline(&self) -> &Timeline {
+        &self.timeline
+    }
+
+    pub fn store(&self) -> &FrameStore {
+        &self.store
+    }
+
+    /// Whether frames are being made.
+    pub fn is_working(&self) -> bool {
+        self.job.is_some()
+    }
+
+    /// The frame that is being made.
+    pub fn in_work(&self) -> Option<u32> {
+        self.job.as_ref()?;
+        self.timeline.first_gap(&self.store)
+    }
+
+    /// Whether something is being opened.
+    pub fn is_opening(&self) -> bool {
+        self.awaited.is_some()
+    }
+
+    /// Whether frames are being read.
+    pub fn is_loading(&self) -> bool {
+        !self.loading.is_empty()
+    }
+
+    /// Frames simulated since the program began.
+    pub fn simulated(&self) -> u64 {
+        self.simulated
+    }
+
+    /// Costs of the adaptive run, by frame; empty unless asked for.
+    pub fn rival_costs(&self) -> &[Option<Cost>] {
+        &self.rival.costs
+    }
+
+    /// Whether the adaptive run is asked for, and whether it is going on.
+    pub fn rival(&self) -> (bool, bool) {
+        (self.rival.on, self.rival.job.is_some())
+    }
+
+    /// Files that have changed on disk since they were read.
+    pub fn changed_files(&self) -> &[PathBuf] {
+        &self.changed_files
+    }
+
+    /// For threads that may wait: the frames that the timeline has now.
+    pub fn frame_reader(&self) -> FrameReader {
+        FrameReader {
+            held: self.store.held(self.timeline.keys().into_iter().flatten()),
+            folder: self.cache.clone(),
+            run: self.run.clone(),
+        }
+    }
+
+    /// How a run of what is open begins.
+    pub fn run_info(&self) -> Option<RunInfo> {
+        let of_run = || self.run.as_ref().map(|run| run.info().clone());
+        self.plan.as_ref().map(|plan| plan.requested.info.clone()).or_else(of_run)
+    }
+
+    /// A message from whoever draws or writes.
+    pub fn say(&mut self, level: Level, text: impl Into<String>) {
+        self.state.say(level, text);
+    }
+}
+
+#[cfg(test)]
+mod tests;

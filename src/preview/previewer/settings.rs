@@ -1,0 +1,127 @@
+//! Settings: changed, taken back, compared.
+
+use std::sync::Arc;
+
+use super::{Awaited, Occasion, Previewer};
+use crate::preview::Edits;
+use crate::preview::action::{Action, Reach};
+use crate::preview::history::Version;
+use crate::preview::plan::Anchor;
+use crate::preview::planner::Source;
+use crate::preview::state::{Level, Remembered};
+
+impl Previewer {
+    pub(super) fn act_on_settings(&mut self, action: Action) {
+        match action {
+            Action::Set { path, value } => self.edit(|edits| edits.set(&path, value)),
+            Action::Reset { path } => self.edit(|edits| edits.reset(&path)),
+            Action::ResetAll => self.edit(|edits| *edits = Edits::default()),
+            Action::SetReach { reach } => self.state.reach = reach,
+            Action::ReRun => {
+                self.change(Version { anchor: None, ..self.state.version.clone() });
+                self.simulate(true);
+            }
+            Action::Undo => {
+                if let Some(before) = self.state.history.undo(self.state.version.clone()) {
+                    self.enforce(before);
+                }
+            }
+            Action::Redo => {
+                if let Some(after) = self.state.history.redo(self.state.version.clone()) {
+                    self.enforce(after);
+                }
+            }
+            Action::KeepAsA => self.keep_as_a(),
+            Action::Compare { wipe } => {
+                self.state.wipe = wipe.map(|share| share.clamp(0.0, 1.0));
+                if self.state.a.is_none() && wipe.is_some() {
+                    self.keep_as_a();
+                }
+                self.refresh_shown();
+            }
+            Action::SwapAAndB => {
+                let Some(a) = self.state.a.take() else { return };
+                self.keep_as_a();
+                self.change(a.version);
+            }
+            other => unreachable!("{other:?} is about other things"),
+        }
+    }
+
+    /// Changes edits from the current frame on, or from the start.
+    fn edit(&mut self, change: impl FnOnce(&mut Edits)) {
+        let mut version = self.state.version.clone();
+        change(&mut version.edits);
+        if version.edits == self.state.version.edits {
+            return;
+        }
+        version.anchor = match self.state.reach {
+            Reach::FromStart => None,
+            Reach::FromHere => self.anchor_here(),
+        };
+        self.change(version);
+    }
+
+    /// The camera is edited: what it reaches is known from the frames' keys, so nothing need be held.
+    pub(super) fn edit_camera(&mut self, path: &str, camera: serde_json::Value) {
+        let mut version = self.state.version.clone();
+        version.edits.set(path, camera);
+        self.change(version);
+    }
+
+    /// The frame that is shown, or the last before it that there is. Frame 0 is made by the settings
+    /// alone, so there is nothing to go on from.
+    fn anchor_here(&self) -> Option<Anchor> {
+        let frame = self.timeline.nearest_before(self.state.playback.current).filter(|&f| f > 0)?;
+        let slot = self.timeline.slot(frame)?;
+        let keys = self.timeline.keys().into_iter().take(frame as usize + 1).collect();
+        Some(Anchor { frame, key: slot.key, keys: Arc::new(keys) })
+    }
+
+    /// Puts a version into force that can be undone.
+    pub(super) fn change(&mut self, version: Version) {
+        if version == self.state.version {
+            return;
+        }
+        if self.plan.is_none() && self.awaited.is_none() {
+            let text = "this is a finished run: open its shot to change settings";
+            self.state.say(Level::Note, text);
+            return;
+        }
+        self.state.history.note(self.state.version.clone());
+        self.enforce(version);
+    }
+
+    /// What is in work goes on until the plan is there: it may be just what is wanted.
+    fn enforce(&mut self, version: Version) {
+        self.state.version = version;
+        self.state.dragged_camera = None;
+        // A change while something is opened is one of what is being opened.
+        match &self.awaited {
+            Some(Awaited { source, occasion, .. }) => self.ask(source.clone(), *occasion),
+            None => self.ask(self.source.clone(), Occasion::Change),
+        }
+    }
+
+    /// Opens something else, with no edits yet.
+    pub(super) fn open_with(&mut self, source: Source) {
+        self.state.version = Version::default();
+        self.ask(source, Occasion::Opening);
+    }
+
+    pub(super) fn ask(&mut self, source: Source, occasion: Occasion) {
+        let request = self.planner.open(source.clone(), self.state.version.edits.clone());
+        self.awaited = Some(Awaited { request, source, occasion });
+    }
+
+    fn keep_as_a(&mut self) {
+        let settings_hash = self.scenery.as_ref().map(|s| s.settings_hash.clone());
+        self.state.a = Some(Remembered {
+            version: self.state.version.clone(),
+            keys: self.timeline.keys(),
+            settings_hash: settings_hash.unwrap_or_default(),
+        });
+        self.shown_of_a = None;
+        self.refresh_shown();
+    }
+}

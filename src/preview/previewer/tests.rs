@@ -1,0 +1,565 @@
+//! The previewer with its threads, on a small sheet that hangs from two corners.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use serde_json::json;
+use tempfile::TempDir;
+
+use glam::DVec3;
+
+use super::*;
+use crate::preview::{FrameStatus, Level, Reach};
+use crate::request::{FrameRange, Request};
+use crate::run::RunWriter;
+use crate::sim::{Simulation, SizingMode};
+
+const LAST: u32 = 12;
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// A shot of a sheet under a camera with keys at 0, 4 (a cut), 8 and 12, and a folder for it.
+struct Stage {
+    folder: TempDir,
+}
+
+impl Stage {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("sheet.obj"), sheet()).unwrap();
+        fs::write(folder.path().join("shot.json"), SHOT).unwrap();
+        Self { folder }
+    }
+
+    fn shot(&self) -> PathBuf {
+        self.folder.path().join("shot.json")
+    }
+
+    fn request(&self) -> Request {
+        Request {
+            shot: Some(self.shot()),
+            camera: None,
+            sets: Vec::new(),
+            fps: None,
+            frames: Some(FrameRange { first: 0, last: LAST }),
+            sizing: SizingMode::View,
+        }
+    }
+
+    fn start(&self, simulating: bool) -> Driven {
+        self.open(Source::Shot(self.request()), simulating)
+    }
+
+    fn open(&self, source: Source, simulating: bool) -> Driven {
+        self.open_with(source, simulating, Some(self.folder.path().join("cache")), 64 << 20)
+    }
+
+    fn open_with(
+        &self,
+        source: Source,
+        simulating: bool,
+        cache: Option<PathBuf>,
+        memory: u64,
+    ) -> Driven {
+        let previewer = Previewer::start(Start {
+            source,
+            look: Look::default(),
+            cache,
+            memory,
+            simulating,
+            wake: Arc::new(|| {}),
+        });
+        Driven(previewer)
+    }
+}
+
+const SHOT: &str = r#"{
+    "shotsilk": 1,
+    // As short as can be.
+    "fps": 24, "steps_per_frame": 2,
+    "view": {"anticipation_frames": 2, "nu_out": 0.2, "margin_m": 0.1},
+    "fabrics": {"cloth": {"preset": "cotton"}},
+    "garments": [{
+        "mesh": "sheet.obj", "fabric": "cloth",
+        "sizing": {"edge_length_min": 0.05, "edge_length_max": 0.3}
+    }],
+    "handles": [{"nodes": [0, 4]}],
+    "camera": {
+        "resolution": [320, 180], "fov_y_deg": 20,
+        "keys": [
+            {"frame": 0, "eye": [0, -3, 0.2], "target": [0, 0, 0.2]},
+            {"frame": 4, "eye": [0, -3, 0.2], "target": [0.6, 0, 0.2], "cut": true},
+            {"frame": 8, "eye": [0.5, -3, 0.2], "target": [0.3, 0, 0.2]},
+            {"frame": 12, "eye": [0, -3, 0.2], "target": [0, 0, 0.2]}
+        ]
+    }
+}
+"#;
+
+/// 5 x 5 nodes, 0.8 m wide.
+fn sheet() -> String {
+    let mut obj = String::new();
+    let at = |k: u32| 0.2 * f64::from(k) - 0.4;
+    for (j, i) in (0..5).flat_map(|j| (0..5).map(move |i| (j, i))) {
+        writeln!(obj, "v {} {} {}\nvt {} {}", at(i), 0.02 * at(j), -at(j), at(i), -at(j)).unwrap();
+    }
+    for (j, i) in (0..4).flat_map(|j| (0..4).map(move |i| (j, i))) {
+        let [a, b, c, d] =
+            [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].map(|(i, j)| 5 * j + i + 1);
+        writeln!(obj, "f {a}/{a} {c}/{c} {d}/{d}\nf {a}/{a} {d}/{d} {b}/{b}").unwrap();
+    }
+    obj
+}
+
+/// A previewer and the patience to wait for it.
+struct Driven(Previewer);
+
+impl Driven {
+    fn until(&mut self, what: &str, is_so: impl Fn(&Previewer) -> bool) {
+        let began = Instant::now();
+        while !is_so(&self.0) {
+            self.0.receive();
+            let errors = self.0.state.messages.iter().filter(|m| m.level == Level::Error);
+            assert_eq!(errors.count(), 0, "{:?}", self.0.state.messages);
+            assert!(began.elapsed() < PATIENCE, "{what} has not come about");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    fn until_opened(&mut self) {
+        self.until("opening", |p| !p.is_opening());
+    }
+
+    fn until_done(&mut self) {
+        self.until("the last frame", |p| {
+            let is_there =
+                |frame| matches!(p.timeline.status(frame), FrameStatus::Ready | FrameStatus::Mixed);
+            !p.is_opening() && p.timeline.len() > 1 && (1..=p.timeline.last()).all(is_there)
+        });
+    }
+
+    fn act(&mut self, action: Action) {
+        self.0.act(action);
+    }
+
+    fn statuses(&self) -> String {
+        let letter = |frame| match self.0.timeline.status(frame) {
+            FrameStatus::Ready => 'r',
+            FrameStatus::Mixed => 'm',
+            FrameStatus::Stale => 's',
+            FrameStatus::Missing => '.',
+        };
+        (0..self.0.timeline.len() as u32).map(letter).collect()
+    }
+
+    fn frame(&mut self, number: u32) -> Arc<Frame> {
+        self.act(Action::GoTo { frame: number });
+        self.until("the frame", |p| p.shown().is_some_and(|shown| shown.number == number));
+        self.0.shown().unwrap().frame.clone()
+    }
+}
+
+/// Positions and velocities, bit by bit.
+fn bits(frame: &Frame) -> Vec<u64> {
+    let of = |mesh: &Arc<crate::mesh::Mesh>| {
+        let both = mesh.position.iter().chain(mesh.velocity.iter());
+        both.flat_map(|v| v.to_array()).map(f64::to_bits).collect::<Vec<_>>()
+    };
+    frame.garments.iter().flat_map(of).collect()
+}
+
+/// The last frame of a plan, simulated without a previewer.
+fn straight(plan: &Plan) -> Frame {
+    let scene = plan.requested.scene.clone();
+    let (mut simulation, mut frame) = Simulation::start(scene, plan.settings()).unwrap();
+    for _ in 0..plan.last() {
+        frame = simulation.advance().unwrap();
+    }
+    frame
+}
+
+fn windy(x: f64) -> Action {
+    Action::Set { path: "air.velocity".into(), value: json!([x, 2.0, 0.0]) }
+}
+
+#[test]
+fn a_moved_camera_key_has_only_the_frames_computed_again_that_can_see_it_with_the_bits_of_a_fresh_run()
+ {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until_done();
+    assert_eq!(p.0.simulated(), u64::from(LAST) + 1);
+    let before = p.0.timeline.keys();
+    p.act(Action::GoTo { frame: 8 });
+    p.act(Action::MoveCamera {
+        eye: DVec3::new(0.5, -3.0, 0.4),
+        target: DVec3::new(0.5, 0.0, 0.2),
+    });
+    p.act(Action::SetKey);
+    p.until_done();
+    // The stretch from the cut at 4 moves from frame 5 on, which a window of 2 frames sees from 4 on:
+    // what is 2 ahead weighs nothing.
+    let kept = p.0.timeline.keys().iter().zip(&before).take_while(|(a, b)| a == b).count();
+    assert_eq!(kept, 4);
+    assert_eq!(p.0.simulated(), u64::from(LAST) + 1 + u64::from(LAST) + 1 - 4);
+    assert_eq!(p.statuses(), "r".repeat(LAST as usize + 1));
+    let plan = p.0.plan().unwrap().clone();
+    assert_eq!(bits(&p.frame(LAST)), bits(&straight(&plan)));
+    // Taken back, nothing is computed at all.
+    let so_far = p.0.simulated();
+    p.act(Action::Undo);
+    p.until("the old frames", |p| !p.is_opening() && p.timeline.keys() == before);
+    assert_eq!(p.0.simulated(), so_far);
+}
+
+#[test]
+fn a_setting_changed_here_leaves_what_was_before_and_marks_what_comes_as_mixed() {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until_done();
+    let before = bits(&p.frame(LAST));
+    p.act(Action::GoTo { frame: 6 });
+    p.act(windy(3.0));
+    p.until("the frames after it", |p| {
+        !p.is_opening() && (7..=LAST).all(|n| p.timeline.status(n) == FrameStatus::Mixed)
+    });
+    assert_eq!(p.statuses(), "sssssssmmmmmm");
+    assert_ne!(bits(&p.frame(LAST)), before);
+    let (six, seven) = (p.0.timeline.slot(6).unwrap(), p.0.timeline.slot(7).unwrap());
+    assert_ne!(six.settings_hash, seven.settings_hash);
+    assert!(!p.0.timeline.is_clean(0, LAST));
+    // A clean run of the same settings is another.
+    p.act(Action::ReRun);
+    p.until("a clean run", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    let plan = p.0.plan().unwrap().clone();
+    assert_eq!(bits(&p.frame(LAST)), bits(&straight(&plan)));
+    // Undone twice, the first frames are back without a step.
+    let so_far = p.0.simulated();
+    p.act(Action::Undo);
+    p.act(Action::Undo);
+    p.until("the first run", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    assert_eq!((p.0.simulated(), bits(&p.frame(LAST))), (so_far, before));
+}
+
+#[test]
+fn undo_gives_the_frames_before_the_anchor_back_as_well() {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until_done();
+    let first = bits(&p.frame(3));
+    p.act(Action::GoTo { frame: 6 });
+    p.act(windy(3.0));
+    p.until("the frames after it", |p| {
+        !p.is_opening() && (7..=LAST).all(|n| p.timeline.status(n) == FrameStatus::Mixed)
+    });
+    let mixed = p.0.timeline.keys();
+    p.act(Action::ReRun);
+    p.until("a clean run", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    assert_ne!(bits(&p.frame(3)), first);
+    let simulated = p.0.simulated();
+    p.act(Action::Undo);
+    p.until("the mixed frames", |p| !p.is_opening() && p.timeline.keys() == mixed);
+    assert_eq!(p.statuses(), "sssssssmmmmmm");
+    assert_eq!((bits(&p.frame(3)), p.0.simulated()), (first, simulated));
+    let hashes = [6, 7].map(|n| p.0.timeline.slot(n).unwrap().settings_hash.clone());
+    assert_ne!(hashes[0], hashes[1]);
+}
+
+#[test]
+fn keys_set_faster_than_plans_are_made_are_all_set() {
+    let stage = Stage::new();
+    let mut p = stage.start(false);
+    p.until_opened();
+    for frame in [2, 6, 10] {
+        p.act(Action::GoTo { frame });
+        p.act(Action::SetKey);
+    }
+    p.until("all keys", |p| !p.is_opening() && p.deferred.is_empty());
+    let path = p.0.scenery().unwrap().camera.clone().unwrap();
+    assert_eq!(path.key_frames(), [0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0]);
+}
+
+#[test]
+fn a_failed_opening_leaves_the_edits_and_another_asks_before_they_are_lost() {
+    let stage = Stage::new();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(windy(1.0));
+    p.until_opened();
+    p.act(Action::OpenOwn);
+    assert!(p.0.state.unsaved.is_some() && !p.0.is_opening());
+    p.act(Action::GiveUpEdits { yes: false });
+    assert!(p.0.state.unsaved.is_none() && !p.0.state.version.edits.is_empty());
+    p.act(Action::Open { path: stage.folder.path().join("nothing.json") });
+    p.act(Action::GiveUpEdits { yes: true });
+    let began = Instant::now();
+    while p.0.is_opening() && began.elapsed() < PATIENCE {
+        p.0.receive();
+    }
+    assert_eq!(p.0.state.messages.last().unwrap().level, Level::Error);
+    assert_eq!(p.0.state.version.edits.overrides(), ["air.velocity=[1.0,2.0,0.0]"]);
+    assert_eq!(p.0.scenery().unwrap().name, "shot");
+}
+
+#[test]
+fn without_a_disk_the_memory_budget_holds_and_the_simulation_halts() {
+    let stage = Stage::new();
+    let mut p = stage.open_with(Source::Shot(stage.request()), true, None, 20_000);
+    p.until("the halt", |p| !p.state.simulating);
+    assert!(p.0.state.messages.last().unwrap().text.contains("do not fit"));
+    assert!(p.0.store.used() <= 20_000 || p.0.store.len() == 1);
+}
+
+#[test]
+fn a_setting_changed_from_the_start_makes_everything_anew() {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until_done();
+    p.act(Action::SetReach { reach: Reach::FromStart });
+    p.act(Action::GoTo { frame: 6 });
+    p.act(windy(3.0));
+    p.until("a clean run", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    assert_eq!(p.0.simulated(), 2 * (u64::from(LAST) + 1));
+}
+
+#[test]
+fn frames_survive_a_restart_and_are_not_computed_again() {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until_done();
+    let last = bits(&p.frame(LAST));
+    p.until("all on disk", |p| {
+        p.timeline.keys().iter().flatten().all(|&key| p.store.is_on_disk(key))
+    });
+    drop(p);
+    let mut p = stage.start(true);
+    p.until_done();
+    assert_eq!(bits(&p.frame(LAST)), last);
+    assert_eq!(p.0.simulated(), 0);
+}
+
+#[test]
+fn memory_for_two_frames_is_enough_to_scrub_all() {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until_done();
+    p.until("all on disk", |p| {
+        p.timeline.keys().iter().flatten().all(|&key| p.store.is_on_disk(key))
+    });
+    let budget = 2 * p.0.store.used() / (u64::from(LAST) + 1);
+    let _ = p.0.store.set_budget(budget);
+    for number in [0, 11, 3, 7, 12, 1] {
+        assert_eq!(p.frame(number).number, number);
+        assert!(p.0.store.used() <= budget);
+    }
+    assert_eq!(p.0.simulated(), u64::from(LAST) + 1);
+}
+
+#[test]
+fn a_bad_value_is_said_and_changes_nothing() {
+    let stage = Stage::new();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(Action::Set { path: "view.nu_out".into(), value: json!(-1.0) });
+    let began = Instant::now();
+    while p.0.is_opening() && began.elapsed() < PATIENCE {
+        p.0.receive();
+    }
+    let said = &p.0.state.messages.last().unwrap().text;
+    assert!(said.contains("view.nu_out") && said.contains("-1"), "{said}");
+    assert!(p.0.state.version.edits.is_empty() && !p.0.state.history.can_undo());
+}
+
+#[test]
+fn a_file_that_is_no_shot_leaves_what_is_open() {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until_done();
+    let keys = p.0.timeline.keys();
+    p.act(Action::Open { path: stage.folder.path().join("sheet.obj") });
+    let began = Instant::now();
+    while p.0.is_opening() && began.elapsed() < PATIENCE {
+        p.0.receive();
+    }
+    assert_eq!(p.0.state.messages.last().unwrap().level, Level::Error);
+    assert_eq!(p.0.timeline.keys(), keys);
+    assert!(matches!(p.0.source(), Source::Shot(request) if request.shot == Some(stage.shot())));
+}
+
+#[test]
+fn a_finished_run_can_be_scrubbed_and_not_changed() {
+    let stage = Stage::new();
+    let requested = stage.request().load().unwrap();
+    let folder = stage.folder.path().join("run");
+    let mut writer =
+        RunWriter::create(&folder, &requested.info, &requested.surfaces(), Default::default())
+            .unwrap();
+    let (mut simulation, frame) =
+        Simulation::start(requested.scene.clone(), requested.settings).unwrap();
+    writer.write(&frame).unwrap();
+    (0..3).for_each(|_| writer.write(&simulation.advance().unwrap()).unwrap());
+    writer.finish().unwrap();
+    let mut p = stage.open(Source::Run(folder), true);
+    p.until_opened();
+    assert_eq!(p.frame(3).number, 3);
+    assert_eq!(p.statuses(), "rrrr");
+    p.act(windy(1.0));
+    assert!(p.0.state.messages.last().unwrap().text.contains("finished run"));
+    assert_eq!(p.0.simulated(), 0);
+}
+
+#[test]
+fn a_saved_shot_keeps_its_comments_and_its_frames() {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until_done();
+    p.act(Action::SetReach { reach: Reach::FromStart });
+    p.act(windy(2.5));
+    p.until("a clean run", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    let (keys, simulated) = (p.0.timeline.keys(), p.0.simulated());
+    p.act(Action::Save);
+    p.until("the saved shot", |p| !p.is_opening());
+    let text = fs::read_to_string(stage.shot()).unwrap();
+    assert!(text.contains("// As short as can be.") && text.contains("2.5"), "{text}");
+    assert!(p.0.state.version.edits.is_empty());
+    assert_eq!((p.0.timeline.keys(), p.0.simulated()), (keys, simulated));
+}
+
+#[test]
+fn a_shot_saved_elsewhere_finds_its_files() {
+    let stage = Stage::new();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(windy(2.5));
+    p.until_opened();
+    let deep = stage.folder.path().join("deep");
+    fs::create_dir(&deep).unwrap();
+    let to = deep.join("other.json");
+    p.act(Action::SaveAs { path: to.clone() });
+    p.until_opened();
+    assert!(matches!(p.0.source(), Source::Shot(request) if request.shot == Some(to.clone())));
+    assert_eq!(p.0.scenery().unwrap().name, "other");
+}
+
+#[test]
+fn the_programs_own_shot_is_saved_as_a_copy_with_its_files() {
+    let stage = Stage::new();
+    let own = Request { shot: None, ..stage.request() };
+    let mut p = stage.open(Source::Shot(own), false);
+    p.until_opened();
+    p.act(windy(2.5));
+    p.until_opened();
+    let keys = p.0.timeline.wanted_keys().collect::<Vec<_>>();
+    let to = stage.folder.path().join("mine/shot.json");
+    fs::create_dir(to.parent().unwrap()).unwrap();
+    p.act(Action::SaveAs { path: to.clone() });
+    p.until_opened();
+    assert!(matches!(p.0.source(), Source::Shot(request) if request.shot == Some(to.clone())));
+    // The same shot elsewhere has the same frames.
+    assert_eq!(p.0.timeline.wanted_keys().collect::<Vec<_>>(), keys);
+}
+
+#[test]
+fn a_changed_file_is_noticed_and_read_again_when_asked() {
+    let stage = Stage::new();
+    let mut p = stage.start(false);
+    p.until_opened();
+    let hash = p.0.scenery().unwrap().settings_hash.clone();
+    // Times of files are as fine as the file system has them.
+    std::thread::sleep(Duration::from_millis(20));
+    fs::write(stage.shot(), SHOT.replace("\"nu_out\": 0.2", "\"nu_out\": 0.3")).unwrap();
+    p.until("the change", |p| p.changed_files() == [stage.shot()]);
+    p.act(Action::Reload);
+    p.until_opened();
+    assert_ne!(p.0.scenery().unwrap().settings_hash, hash);
+    assert!(p.0.changed_files().is_empty());
+}
+
+#[test]
+fn playing_keeps_the_rate_and_drops_frames_rather_than_time() {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until_done();
+    p.act(Action::GoTo { frame: 0 });
+    p.act(Action::SetLooping { on: false });
+    p.act(Action::Play);
+    assert_eq!(p.0.tick(10.0), Some(10.0 + 1.0 / 24.0));
+    p.0.tick(10.0 + 5.5 / 24.0);
+    assert_eq!(p.0.state.playback.current, 5);
+    assert_eq!(p.0.tick(10.0 + 13.5 / 24.0), None);
+    assert_eq!((p.0.state.playback.current, p.0.state.playback.playing), (LAST, false));
+    p.act(Action::SetLooping { on: true });
+    p.act(Action::SetIn { frame: 3 });
+    p.act(Action::SetOut { frame: 5 });
+    p.act(Action::Play);
+    p.0.tick(20.0);
+    assert_eq!(p.0.state.playback.current, 3);
+    for (passed, frame) in [(2.5, 5), (3.2, 3), (4.2, 4), (7.9, 4), (300.2, 3)] {
+        p.0.tick(20.0 + passed / 24.0);
+        assert_eq!(p.0.state.playback.current, frame, "after {passed} frames");
+    }
+}
+
+#[test]
+fn playing_waits_for_frames_that_are_not_there_yet() {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until("some frames", |p| p.timeline.slot(4).is_some());
+    p.act(Action::Simulate { on: false });
+    p.act(Action::GoTo { frame: 0 });
+    p.act(Action::Play);
+    p.0.tick(0.0);
+    p.0.tick(100.0);
+    let current = p.0.state.playback.current;
+    assert!(current >= 4 && p.0.state.playback.playing);
+    if current < LAST {
+        assert_eq!(p.0.timeline.status(current + 1), FrameStatus::Missing);
+    }
+}
+
+#[test]
+fn a_and_b_are_shown_together_and_change_places() {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until_done();
+    let a = bits(&p.frame(10));
+    p.act(Action::KeepAsA);
+    p.act(Action::SetReach { reach: Reach::FromStart });
+    p.act(windy(4.0));
+    p.until("b", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    p.act(Action::Compare { wipe: Some(0.5) });
+    p.until("both", |p| p.shown_of_a().is_some());
+    assert_eq!(bits(p.0.shown_of_a().unwrap()), a);
+    let b = bits(&p.frame(10));
+    assert_ne!(a, b);
+    p.act(Action::SwapAAndB);
+    p.until("the change of places", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    assert_eq!(bits(&p.frame(10)), a);
+    p.until("both", |p| p.shown_of_a().is_some());
+    assert_eq!(bits(p.0.shown_of_a().unwrap()), b);
+}
+
+#[test]
+fn the_adaptive_run_counts_costs_and_keeps_no_frames() {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until_done();
+    let (used, simulated) = (p.0.store.used(), p.0.simulated());
+    p.act(Action::MeasureAdaptive { on: true });
+    p.until("all costs", |p| {
+        p.rival_costs().len() == LAST as usize + 1 && p.rival_costs().iter().all(Option::is_some)
+    });
+    assert_eq!((p.0.store.used(), p.0.simulated()), (used, simulated));
+}
+
+#[test]
+fn dropped_while_it_works_it_ends_at_once() {
+    let stage = Stage::new();
+    let mut p = stage.start(true);
+    p.until("a frame", |p| p.timeline.slot(1).is_some());
+    let began = Instant::now();
+    drop(p);
+    assert!(began.elapsed() < Duration::from_millis(500));
+}

@@ -1,0 +1,224 @@
+//! What the previewer shows and how it is set: plain data, changed by [actions](super::Action) only.
+
+use serde::{Deserialize, Serialize};
+
+use super::action::{Action, Reach};
+use super::history::{History, Version};
+use super::key::FrameKey;
+use super::navigate::EyeAndTarget;
+
+/// See the module.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct State {
+    pub playback: Playback,
+    pub look: Look,
+    /// `None`: found by itself.
+    pub witness: Option<EyeAndTarget>,
+    /// What is in force, and what was and may be again.
+    pub version: Version,
+    pub history: History,
+    pub reach: Reach,
+    /// What B is compared with.
+    pub a: Option<Remembered>,
+    /// Where the wipe between A and B stands, 0..1; `None` shows B alone.
+    pub wipe: Option<f64>,
+    pub camera_unlocked: bool,
+    /// The shot camera while it is dragged; a key takes it over, a step in time drops it.
+    pub dragged_camera: Option<EyeAndTarget>,
+    pub simulating: bool,
+    /// What would lose changed settings, and waits for a word about that.
+    pub unsaved: Option<Action>,
+    pub messages: Vec<Message>,
+}
+
+/// Where time stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Playback {
+    pub current: u32,
+    /// The range that plays, both included.
+    pub first: u32,
+    pub last: u32,
+    pub playing: bool,
+    pub looping: bool,
+}
+
+/// How frames are shown.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(default)]
+pub struct Look {
+    pub layout: Layout,
+    pub colour: ColourMode,
+    pub wireframe: bool,
+    pub legend: bool,
+    /// Crossing faces stand out.
+    pub intersections: bool,
+    pub safe_areas: bool,
+    /// The frustum as it will be at the end of the look-ahead.
+    pub ghost: bool,
+    pub ground: bool,
+    pub parameters_panel: bool,
+    pub cost_panel: bool,
+    pub help_panel: bool,
+    pub files_panel: bool,
+    pub export_panel: bool,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            layout: Layout::Both,
+            colour: ColourMode::ViewFactor,
+            wireframe: true,
+            legend: true,
+            intersections: false,
+            safe_areas: false,
+            ghost: true,
+            ground: true,
+            parameters_panel: true,
+            cost_panel: true,
+            help_panel: false,
+            files_panel: false,
+            export_panel: false,
+        }
+    }
+}
+
+impl Look {
+    pub fn overlay_mut(&mut self, overlay: Overlay) -> &mut bool {
+        match overlay {
+            Overlay::Wireframe => &mut self.wireframe,
+            Overlay::Legend => &mut self.legend,
+            Overlay::Intersections => &mut self.intersections,
+            Overlay::SafeAreas => &mut self.safe_areas,
+            Overlay::Ghost => &mut self.ghost,
+            Overlay::Ground => &mut self.ground,
+        }
+    }
+
+    pub fn panel_mut(&mut self, panel: PanelName) -> &mut bool {
+        match panel {
+            PanelName::Parameters => &mut self.parameters_panel,
+            PanelName::Costs => &mut self.cost_panel,
+            PanelName::Help => &mut self.help_panel,
+            PanelName::Files => &mut self.files_panel,
+            PanelName::Export => &mut self.export_panel,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Layout {
+    #[default]
+    Both,
+    Shot,
+    Witness,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Viewport {
+    Shot,
+    Witness,
+    Both,
+}
+
+/// What the colour of the cloth shows.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ColourMode {
+    #[default]
+    ViewFactor,
+    EdgeSize,
+    Strain,
+    Velocity,
+    Plain,
+}
+
+impl ColourMode {
+    pub const ALL: [Self; 5] =
+        [Self::ViewFactor, Self::EdgeSize, Self::Strain, Self::Velocity, Self::Plain];
+
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::ViewFactor => "View factor",
+            Self::EdgeSize => "Edge size",
+            Self::Strain => "Strain",
+            Self::Velocity => "Velocity",
+            Self::Plain => "Plain",
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Overlay {
+    Wireframe,
+    Legend,
+    Intersections,
+    SafeAreas,
+    Ghost,
+    Ground,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PanelName {
+    Parameters,
+    Costs,
+    Help,
+    Files,
+    Export,
+}
+
+/// Frames and settings to compare with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remembered {
+    pub version: Version,
+    /// By frame number.
+    pub keys: Vec<Option<FrameKey>>,
+    pub settings_hash: String,
+}
+
+/// Something the user should know.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    pub level: Level,
+    pub text: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    Note,
+    Warning,
+    Error,
+}
+
+/// Messages kept; older ones go.
+const MESSAGES_KEPT: usize = 20;
+
+impl State {
+    /// A message that repeats the last one is said once.
+    pub fn say(&mut self, level: Level, text: impl Into<String>) {
+        let message = Message { level, text: text.into() };
+        if self.messages.last() != Some(&message) {
+            self.messages.push(message);
+        }
+        if self.messages.len() > MESSAGES_KEPT {
+            self.messages.remove(0);
+        }
+    }
+}
+
+impl Playback {
+    /// Stands at the start of a shot with frames 0 to `last`.
+    pub fn of(last: u32) -> Self {
+        Self { last, looping: true, ..Self::default() }
+    }
+
+    /// Keeps its place in a shot of another length; a range that was the whole shot stays so.
+    pub fn with_last(self, old_last: u32, last: u32) -> Self {
+        let kept = if self.last == old_last { last } else { self.last.min(last) };
+        Self { current: self.current.min(last), first: self.first.min(kept), last: kept, ..self }
+    }
+}
