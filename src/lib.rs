@@ -4,8 +4,9 @@
 //! what is simulated ([`math`], [`mesh`], [`scene`], [`shot`]), how fine ([`sizing`], [`view`],
 //! [`remesh`]), how it moves ([`dynamics`], [`collision`], [`sim`]), how right that is
 //! ([`validation`]) and where it fails ([`stability`]), what two runs have in common ([`resample`]),
-//! how it is kept ([`run`]) and shown ([`render`], [`sheet`]), how it is judged ([`compare`],
-//! [`chart`]), and how it is started ([`cli`]).
+//! how it is kept ([`run`]), asked for ([`request`]), tried out ([`preview`]) and shown
+//! ([`render`], [`sheet`]), how it is judged ([`compare`], [`chart`]), and how it is started: in
+//! a window ([`app`]) or not ([`cli`]).
 //!
 //! # One frame
 //! ```text
@@ -47,6 +48,11 @@ pub mod resample;
 
 pub mod run;
 
+pub mod own_shot;
+pub mod request;
+
+pub mod preview;
+
 pub mod render;
 pub mod sheet;
 
@@ -54,6 +60,8 @@ pub mod compare;
 
 pub mod chart;
 
-pub mod own_shot;
+mod output;
+
+pub mod app;
 
 pub mod cli;

@@ -6,7 +6,7 @@ use std::process::Command;
 use serde_json::Value;
 
 /// Licences that ask for no more than to be named.
-const ALLOWED: [&str; 10] = [
+const ALLOWED: [&str; 11] = [
     "MIT",
     "Apache-2.0",
     "BSD-2-Clause",
@@ -17,6 +17,7 @@ const ALLOWED: [&str; 10] = [
     "Unlicense",
     "CC0-1.0",
     "0BSD",
+    "BSL-1.0",
 ];
 
 /// Licences of one package only, and why.

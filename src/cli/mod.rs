@@ -7,10 +7,10 @@ mod failure;
 mod figure;
 mod footage;
 mod interrupt;
-mod leftovers;
 mod log;
 mod output;
 mod pictures;
+mod preview;
 mod progress;
 mod render;
 mod schema;
@@ -21,20 +21,23 @@ mod summary;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 /// Cloth simulated only as finely as the shot's camera can see it.
 #[derive(Parser, Debug)]
 #[command(name = "shotsilk", version, about, long_about = None)]
 struct Cli {
+    /// Without one, where there is a display: the previewer
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
     #[command(flatten)]
     log: log::LogArgs,
 }
 
 #[derive(Subcommand, Debug)]
 enum Command {
+    /// Scrub a shot, tune how its camera coarsens the cloth, move the camera: in a window
+    Preview(preview::PreviewArgs),
     /// Simulate a shot into a run folder
     Simulate(simulate::SimulateArgs),
     /// Draw the frames of a shot or a run as PNG pictures
@@ -56,7 +59,13 @@ pub fn main() -> ExitCode {
     // clap prints usage errors itself and ends with its exit code 2.
     let cli = Cli::parse();
     cli.log.install();
-    let result = match cli.command {
+    let Some(command) = cli.command.or_else(usual_command) else {
+        // As clap does without a subcommand.
+        eprint!("{}", Cli::command().render_help().ansi());
+        return ExitCode::from(2);
+    };
+    let result = match command {
+        Command::Preview(args) => preview::run(&args),
         Command::Simulate(args) => simulate::run(&args, cli.log),
         Command::Render(args) => render::run(&args, cli.log),
         Command::Sheet(args) => sheet::run(&args, cli.log),
@@ -72,4 +81,13 @@ pub fn main() -> ExitCode {
             failure::exit_code(&error)
         }
     }
+}
+
+/// What the program does when it is not told: it shows its window, if there is anywhere to show it.
+fn usual_command() -> Option<Command> {
+    let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let has_display = cfg!(not(all(unix, not(target_os = "macos"))))
+        || is_set("DISPLAY")
+        || is_set("WAYLAND_DISPLAY");
+    has_display.then(|| Cli::parse_from(["shotsilk", "preview"]).command).flatten()
 }

@@ -1,0 +1,85 @@
+//! What is wrong with a request, before anything is opened.
+
+use std::path::Path;
+
+use anyhow::{Result, bail, ensure};
+
+use super::{ExportKind, ExportRequest, ExportView};
+use crate::render::size_of_width;
+
+/// The least and the greatest width of a view's picture (px): as small as a folder's icon, and as large
+/// as graphics adapters draw.
+pub const WIDTH_MIN: u32 = 16;
+pub const WIDTH_MAX: u32 = 16_384;
+
+/// The pixels of all pictures on a contact sheet: 1.6 GB in memory.
+pub const SHEET_PIXELS_MAX: u64 = 400_000_000;
+
+/// The frames to export, in order; at least one.
+///
+/// # Errors
+/// A range without frames, a width beyond the limits, a file name of another kind, or a contact sheet
+/// without a witness.
+pub(super) fn checked_frames(request: &ExportRequest) -> Result<Vec<u32>> {
+    let frames = frames(&request.what)?;
+    match &request.what {
+        ExportKind::Still { .. } => check_png(&request.to)?,
+        ExportKind::Sheet { .. } => {
+            check_png(&request.to)?;
+            check_sheet(request, frames.len())?;
+        }
+        ExportKind::Sequence { .. } | ExportKind::Video { .. } => {}
+        // Its files are no pictures.
+        ExportKind::Run { .. } => return Ok(frames),
+    }
+    let width = request.width;
+    ensure!(
+        (WIDTH_MIN..=WIDTH_MAX).contains(&width),
+        "a picture cannot be {width} px wide: {WIDTH_MIN} to {WIDTH_MAX} px are possible"
+    );
+    Ok(frames)
+}
+
+fn frames(what: &ExportKind) -> Result<Vec<u32>> {
+    let range = |first: u32, last: u32, stride: u32| {
+        ensure!(first <= last, "the first frame, {first}, is after the last, {last}");
+        ensure!(stride > 0, "every 0th frame is none: the least step is 1");
+        Ok((first..=last).step_by(stride as usize).collect())
+    };
+    match what {
+        ExportKind::Still { frame } => Ok(vec![*frame]),
+        ExportKind::Sheet { frames } => {
+            ensure!(!frames.is_empty(), "a contact sheet needs at least one frame");
+            Ok(frames.clone())
+        }
+        ExportKind::Sequence { first, last, stride } => range(*first, *last, *stride),
+        ExportKind::Video { first, last } | ExportKind::Run { first, last } => {
+            range(*first, *last, 1)
+        }
+    }
+}
+
+fn check_png(path: &Path) -> Result<()> {
+    let is_png = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
+    ensure!(
+        is_png,
+        "cannot write {:?}: it is a PNG file: let its name end in .png",
+        path.display()
+    );
+    Ok(())
+}
+
+fn check_sheet(request: &ExportRequest, frame_count: usize) -> Result<()> {
+    let witness = match &request.view {
+        ExportView::Witness(view) | ExportView::Both(view) => view,
+        ExportView::Shot => bail!("a contact sheet shows both views: it needs a witness's"),
+    };
+    let [width, height] = size_of_width(witness, request.width).map(u64::from);
+    let pixels = (2 * width).saturating_mul(height).saturating_mul(frame_count as u64);
+    ensure!(
+        pixels <= SHEET_PIXELS_MAX,
+        "a contact sheet of {frame_count} frames, {width} px wide each, is too large: choose fewer \
+         frames or smaller pictures"
+    );
+    Ok(())
+}

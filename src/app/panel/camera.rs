@@ -1,0 +1,133 @@
+//! The shot camera's keys and lens.
+
+use std::sync::Arc;
+
+use egui::{CollapsingHeader, DragValue, RichText, Ui};
+
+use super::Context;
+use crate::app::theme;
+use crate::preview::{Action, CameraEdit, CameraEditError, LensValue, Plan};
+
+/// A baked camera that is made one with keys gets one every so many frames.
+const KEYS_EVERY: u32 = 10;
+
+/// See the module.
+#[derive(Default)]
+pub struct CameraPanel {
+    /// The lens being dragged, which holds when it is let go.
+    dragged_lens: Option<f64>,
+    /// The camera of the plan that it was read from.
+    read: Option<(Arc<Plan>, Result<CameraEdit, CameraEditError>)>,
+}
+
+impl CameraPanel {
+    pub fn show(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
+        let Some(plan) = context.previewer.plan() else { return };
+        CollapsingHeader::new("Camera").default_open(true).show(ui, |ui| match self.camera(plan) {
+            Ok(camera) => self.keyed(ui, context, plan, &camera, actions),
+            Err(CameraEditError::Baked) => {
+                ui.label("The camera has a matrix a frame and no keys.");
+                let hint = format!("a key every {KEYS_EVERY} frames, and at cuts");
+                if ui.button("Turn it into keys").on_hover_text(hint).clicked() {
+                    actions.push(Action::MakeKeys { every: KEYS_EVERY });
+                }
+            }
+            Err(error) => {
+                ui.label(RichText::new(error.to_string()).color(theme::FAINT));
+            }
+        });
+    }
+
+    fn camera(&mut self, plan: &Arc<Plan>) -> Result<CameraEdit, CameraEditError> {
+        if let Some((_, camera)) = self.read.as_ref().filter(|(of, _)| Arc::ptr_eq(of, plan)) {
+            return camera.clone();
+        }
+        let camera = CameraEdit::of_shot(plan.resolved(), &plan.requested.scene);
+        self.read = Some((plan.clone(), camera.clone()));
+        camera
+    }
+
+    fn keyed(
+        &mut self,
+        ui: &mut Ui,
+        context: &Context<'_>,
+        plan: &Plan,
+        camera: &CameraEdit,
+        actions: &mut Vec<Action>,
+    ) {
+        let state = context.previewer.state();
+        let current = f64::from(state.playback.current);
+        let key = camera.keys().iter().find(|key| key.frame == current);
+        let mut unlocked = state.camera_unlocked;
+        let hint = "drags in the shot's view, or of the camera's eye in the witness's, move the shot \
+                    camera and set a key (C)";
+        if ui.checkbox(&mut unlocked, "unlocked").on_hover_text(hint).changed() {
+            actions.push(Action::UnlockCamera { on: unlocked });
+        }
+        ui.horizontal(|ui| {
+            let hint = "a key where the camera is now (K)";
+            let name = if key.is_some() { "Set key" } else { "Add key" };
+            if ui.button(name).on_hover_text(hint).clicked() {
+                actions.push(Action::SetKey);
+            }
+            let delete = ui.add_enabled(key.is_some(), egui::Button::new("Delete key"));
+            if delete.on_hover_text("the key at this frame (Delete)").clicked() {
+                actions.push(Action::DeleteKey { frame: current });
+            }
+            if let Some(key) = key {
+                let mut cut = key.cut;
+                let hint = "the camera jumps to this key instead of moving there";
+                if ui.checkbox(&mut cut, "cut").on_hover_text(hint).changed() {
+                    actions.push(Action::SetCut { frame: current, cut });
+                }
+            }
+        });
+        self.lens(ui, camera, current, key.is_some(), actions);
+        let shown = |frame: f64| frame + plan.requested.scene.first_frame as f64;
+        let keys: Vec<String> = camera
+            .keys()
+            .iter()
+            .map(|key| format!("{}{}", shown(key.frame), if key.cut { " cut" } else { "" }))
+            .collect();
+        ui.label(RichText::new(format!("keys: {}", keys.join(", "))).small().color(theme::FAINT));
+    }
+
+    fn lens(
+        &mut self,
+        ui: &mut Ui,
+        camera: &CameraEdit,
+        current: f64,
+        at_key: bool,
+        actions: &mut Vec<Action>,
+    ) {
+        let frame = if at_key { current } else { camera.keys()[0].frame };
+        let Ok(lens) = camera.lens(frame) else { return };
+        let (name, value, range, suffix) = match lens {
+            LensValue::FovYDeg(degrees) => ("field of view", degrees, 1.0..=150.0, " deg"),
+            LensValue::FocalMm(focal) => ("focal length", focal, 4.0..=400.0, " mm"),
+        };
+        let mut now = self.dragged_lens.unwrap_or(value);
+        ui.horizontal(|ui| {
+            ui.label(name);
+            let field = DragValue::new(&mut now)
+                .range(range)
+                .speed(0.1)
+                .suffix(suffix)
+                .max_decimals(1)
+                .update_while_editing(false);
+            let response = ui.add(field);
+            if response.dragged() && !response.drag_stopped() {
+                self.dragged_lens = Some(now);
+            } else if response.drag_stopped() || response.changed() {
+                self.dragged_lens = None;
+                let frame = at_key.then_some(current);
+                actions.push(match lens {
+                    LensValue::FovYDeg(_) => Action::SetFieldOfView { frame, degrees: now },
+                    LensValue::FocalMm(_) => Action::SetFocalLength { frame, focal_mm: now },
+                });
+            }
+            let scope = if at_key { "at this key" } else { "whole path" };
+            ui.label(scope);
+        });
+    }
+}

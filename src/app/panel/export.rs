@@ -1,0 +1,111 @@
+//! What to export, of which view, how large and where to.
+
+use std::path::PathBuf;
+
+use egui::{DragValue, RichText, TextEdit, Ui};
+
+use super::Context;
+use crate::app::theme;
+use crate::preview::{Action, Export, ExportKind, PanelName, Viewport};
+
+/// See the module.
+pub struct ExportPanel {
+    kind: ExportKind,
+    viewport: Viewport,
+    width: u32,
+    burn_in: bool,
+    /// `None` until somebody types: then it follows the kind.
+    to: Option<String>,
+}
+
+impl Default for ExportPanel {
+    fn default() -> Self {
+        Self {
+            kind: ExportKind::Still,
+            viewport: Viewport::Shot,
+            width: 1280,
+            burn_in: true,
+            to: None,
+        }
+    }
+}
+
+const KINDS: [(ExportKind, &str, &str); 5] = [
+    (ExportKind::Still, "Still", "this frame as PNG"),
+    (ExportKind::Sheet, "Contact sheet", "frames of the range, both views, on one page"),
+    (ExportKind::Sequence, "PNG sequence", "a picture a frame of the range, into a folder"),
+    (ExportKind::Video, "Video", "the range as a film; needs ffmpeg"),
+    (ExportKind::Run, "Run folder", "for render, sheet, compare and the pipeline"),
+];
+
+impl ExportPanel {
+    pub fn show(&mut self, ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
+        let mut open = true;
+        egui::Window::new("Export")
+            .constrain_to(ui.max_rect())
+            .open(&mut open)
+            .resizable(false)
+            .show(ui.ctx(), |ui| {
+                for (kind, name, hint) in KINDS {
+                    ui.radio_value(&mut self.kind, kind, name).on_hover_text(hint);
+                }
+                ui.separator();
+                self.how(ui);
+                let mut to = self.to.clone().unwrap_or_else(|| self.usual_name(context));
+                ui.label("to");
+                if ui.add(TextEdit::singleline(&mut to).desired_width(320.0)).changed() {
+                    self.to = Some(to.clone());
+                }
+                let is_ready = !context.exports.is_running() && !to.trim().is_empty();
+                if ui.add_enabled(is_ready, egui::Button::new("Export")).clicked() {
+                    let (kind, viewport, width, burn_in) =
+                        (self.kind, self.viewport, self.width, self.burn_in);
+                    let to = PathBuf::from(to.trim());
+                    let export = Export { kind, viewport, width, burn_in, to };
+                    actions.push(Action::Export { export });
+                }
+                let words = "stills of any frame; all else of frames that a clean run gives";
+                ui.label(RichText::new(words).small().color(theme::FAINT));
+            });
+        if !open {
+            actions.push(Action::SetPanel { panel: PanelName::Export, open: false });
+        }
+    }
+
+    fn how(&mut self, ui: &mut Ui) {
+        if matches!(self.kind, ExportKind::Run) {
+            return;
+        }
+        if self.kind != ExportKind::Sheet {
+            ui.horizontal(|ui| {
+                for (viewport, name) in [
+                    (Viewport::Shot, "shot camera"),
+                    (Viewport::Witness, "witness"),
+                    (Viewport::Both, "both"),
+                ] {
+                    ui.radio_value(&mut self.viewport, viewport, name);
+                }
+            });
+            ui.checkbox(&mut self.burn_in, "strip with shot, frame, lens and settings");
+        }
+        ui.horizontal(|ui| {
+            ui.label("width of one view");
+            ui.add(DragValue::new(&mut self.width).range(64..=8192).suffix(" px"));
+        });
+    }
+
+    fn usual_name(&self, context: &Context<'_>) -> String {
+        let previewer = context.previewer;
+        let Some(scenery) = previewer.scenery() else { return String::new() };
+        let name = &scenery.name;
+        match self.kind {
+            ExportKind::Still => {
+                format!("{name}.{}.png", scenery.shown(previewer.state().playback.current))
+            }
+            ExportKind::Sheet => format!("{name}.sheet.png"),
+            ExportKind::Sequence => format!("{name}.frames"),
+            ExportKind::Video => format!("{name}.mp4"),
+            ExportKind::Run => format!("{name}.run"),
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! The panels: each a function from what is to what the user wants.
+
+mod bar;
+mod camera;
+mod costs;
+mod export;
+mod files;
+mod help;
+mod messages;
+mod parameters;
+mod timeline;
+
+use egui::Ui;
+
+use super::exports::Exports;
+use super::pace::Pace;
+use super::preferences::Preferences;
+use crate::preview::{Action, Previewer};
+use crate::render::ColourBy;
+
+/// What panels read.
+pub struct Context<'a> {
+    pub previewer: &'a Previewer,
+    pub exports: &'a Exports,
+    pub preferences: &'a Preferences,
+    pub pace: &'a Pace,
+    /// What colours stand for; `None` while nothing is open.
+    pub colour_by: Option<ColourBy>,
+}
+
+/// What panels remember of themselves: texts half typed, pages open.
+#[derive(Default)]
+pub struct Panels {
+    files: files::FilesPanel,
+    export: export::ExportPanel,
+    parameters: parameters::ParametersPanel,
+    camera: camera::CameraPanel,
+    costs: costs::CostsPanel,
+}
+
+impl Panels {
+    /// The panels around the viewports.
+    pub fn show(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
+        let look = context.previewer.state().look;
+        egui::Panel::top("bar").show(ui, |ui| bar::show(ui, context, actions));
+        egui::Panel::bottom("timeline")
+            .exact_size(timeline::HEIGHT)
+            .show(ui, |ui| timeline::show(ui, context, actions));
+        if look.cost_panel {
+            egui::Panel::bottom("costs")
+                .default_size(150.0)
+                .size_range(90.0..=420.0)
+                .resizable(true)
+                .show(ui, |ui| self.costs.show(ui, context, actions));
+        }
+        if look.parameters_panel {
+            egui::Panel::right("parameters")
+                .default_size(300.0)
+                .size_range(220.0..=520.0)
+                .resizable(true)
+                .show(ui, |ui| {
+                    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                        self.camera.show(ui, context, actions);
+                        self.parameters.show(ui, context, actions);
+                    });
+                });
+        }
+    }
+
+    /// What lies over the viewports: messages, help, dialogs.
+    pub fn show_over_viewports(
+        &mut self,
+        ui: &mut Ui,
+        context: &Context<'_>,
+        actions: &mut Vec<Action>,
+    ) {
+        let look = context.previewer.state().look;
+        messages::show(ui, context, actions);
+        if look.help_panel {
+            help::show(ui, actions);
+        }
+        if look.files_panel {
+            self.files.show(ui, context, actions);
+        }
+        if look.export_panel {
+            self.export.show(ui, context, actions);
+        }
+    }
+}

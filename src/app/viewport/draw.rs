@@ -1,0 +1,358 @@
+//! Drawing panes: only what has changed since it was drawn last.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::{
+    CachedList, Drawn, Eye, FoundWitness, Pane, Ranges, Same, Side, Viewports, index, shot_view,
+};
+use crate::preview::{ColourMode, EyeAndTarget, ImagePlane, Look, Previewer, Scenery};
+use crate::render::{
+    Bounds, CameraTrail, ColourBy, CrossingMarks, DrawList, Gpu, LogRange, PictureOptions,
+    RenderError, Renderer, ShotCamera, TargetTexture, UiPainter, WitnessSubject, witness_view,
+};
+use crate::shot::{Lens, View};
+use crate::sim::Frame;
+
+/// The strain at the ends of its colour scale: what woven cloth hardly ever exceeds.
+const STRAIN_LIMIT: f64 = 0.1;
+/// Vertical field of view of the witness (rad): long enough that little is distorted.
+const WITNESS_FOV_Y: f64 = 0.6;
+/// Shot views that decide where the witness stands.
+const PATH_SAMPLES: u32 = 24;
+/// Size of the picture for which the witness's place is found (px).
+const USUAL_SIZE: [u32; 2] = [1280, 720];
+
+impl Viewports {
+    /// Builds the lists of what has changed; returns whether anything is to be drawn.
+    pub fn prepare(&mut self, previewer: &Previewer) -> Vec<(usize, Wanted)> {
+        let Some(scenery) = previewer.scenery().cloned() else { return Vec::new() };
+        let mut wanted = Vec::new();
+        for (eye, side) in [
+            (Eye::Shot, Side::B),
+            (Eye::Witness, Side::B),
+            (Eye::Shot, Side::A),
+            (Eye::Witness, Side::A),
+        ] {
+            let Some(size) = self.panes[index(eye, side)].wanted else { continue };
+            let frame = match side {
+                Side::B => previewer.shown().map(|shown| shown.frame.clone()),
+                Side::A => previewer.shown_of_a().cloned(),
+            };
+            // Without a frame there is still the camera to be seen.
+            let frame = frame.unwrap_or_default();
+            self.ranges.see(&frame);
+            if let Some(drawn) = self.wanted(eye, size, &frame, previewer, &scenery) {
+                let place = index(eye, side);
+                if self.panes[place].drawn.as_ref() != Some(&drawn) {
+                    let list = self.list(eye, &frame, &drawn, &scenery);
+                    wanted.push((place, Wanted { list, drawn }));
+                }
+            }
+        }
+        wanted
+    }
+
+    /// Draws what [`Viewports::prepare`] has prepared.
+    ///
+    /// # Errors
+    /// If the device reports one.
+    pub fn draw(
+        &mut self,
+        wanted: Vec<(usize, Wanted)>,
+        gpu: &Gpu,
+        renderer: &mut Renderer,
+        painter: &mut UiPainter,
+    ) -> Result<(), RenderError> {
+        for (place, Wanted { list, drawn }) in wanted {
+            let pane = &mut self.panes[place];
+            pane.resize(gpu, painter, drawn.size);
+            let (texture, _) = pane.texture.as_ref().expect("made just now");
+            renderer.draw(gpu, &list, &drawn.view, texture.target())?;
+            pane.drawn = Some(drawn);
+        }
+        Ok(())
+    }
+
+    /// Where the witness stands and what it looks at; `None` while nothing is known of the cloth.
+    pub fn witness_place(&self, previewer: &Previewer) -> Option<EyeAndTarget> {
+        previewer.state().witness.or(self.found_witness.as_ref().map(|found| found.place))
+    }
+
+    /// The witness's view of a size (px).
+    pub fn witness_view(&self, previewer: &Previewer, size: [u32; 2]) -> Option<View> {
+        Some(witness(self.witness_place(previewer)?, size))
+    }
+
+    /// A place from which the cloth of the current frame fills the witness's view.
+    pub fn framed(&self, previewer: &Previewer) -> Option<EyeAndTarget> {
+        let bounds = Bounds::of_cloth(&previewer.shown()?.frame);
+        let size = self.panes[index(Eye::Witness, Side::B)].wanted.unwrap_or(USUAL_SIZE);
+        let place = self.witness_place(previewer)?;
+        Some(place.framed([bounds.min, bounds.max], &image_plane(size), 0.1))
+    }
+
+    /// How frames are drawn now, for exports.
+    pub fn picture_options(&self, previewer: &Previewer) -> Option<PictureOptions> {
+        let look = previewer.state().look;
+        let scenery = previewer.scenery()?;
+        let usual = PictureOptions::default();
+        Some(PictureOptions {
+            colour_by: self.colour_by(&look, scenery),
+            wire_strength: if look.wireframe { usual.wire_strength } else { 0.0 },
+            ground_height: self
+                .found_witness
+                .as_ref()
+                .map(|found| found.ground)
+                .filter(|_| look.ground),
+            crossings: match look.intersections {
+                true => CrossingMarks::Magenta,
+                false => CrossingMarks::None,
+            },
+            ..usual
+        })
+    }
+
+    /// What the colours stand for now.
+    pub fn colour_by(&self, look: &Look, scenery: &Scenery) -> ColourBy {
+        match look.colour {
+            ColourMode::ViewFactor => view_factor(scenery, self.ranges.least_factor),
+            ColourMode::EdgeSize => {
+                ColourBy::EdgeSize(self.ranges.edge.unwrap_or(LogRange { start: 0.01, end: 0.1 }))
+            }
+            ColourMode::Strain => ColourBy::Strain { limit: STRAIN_LIMIT },
+            ColourMode::Velocity => ColourBy::speed(self.ranges.speed),
+            ColourMode::Plain => ColourBy::Plain,
+        }
+    }
+
+    fn wanted(
+        &mut self,
+        eye: Eye,
+        size: [u32; 2],
+        frame: &Arc<Frame>,
+        previewer: &Previewer,
+        scenery: &Arc<Scenery>,
+    ) -> Option<Drawn> {
+        self.follow_camera(scenery);
+        self.find_witness(frame, previewer, scenery);
+        let look = Look {
+            // What concerns the layout alone changes no picture.
+            layout: Default::default(),
+            parameters_panel: false,
+            cost_panel: false,
+            help_panel: false,
+            files_panel: false,
+            export_panel: false,
+            legend: false,
+            safe_areas: false,
+            ..previewer.state().look
+        };
+        let shot = shot_view(previewer, scenery);
+        let view = match eye {
+            Eye::Shot => shot?,
+            Eye::Witness => witness(self.witness_place(previewer)?, size),
+        };
+        let ahead = f64::from(previewer.state().playback.current) + scenery.anticipation();
+        let ghost = scenery.camera.as_ref().filter(|_| look.ghost).map(|path| path.view(ahead));
+        Some(Drawn {
+            frame: Same(frame.clone()),
+            scenery: Same(scenery.clone()),
+            view,
+            shot: shot.filter(|_| eye == Eye::Witness),
+            ghost: ghost.filter(|_| eye == Eye::Witness),
+            look,
+            colour: self.colour_by(&look, scenery),
+            marked: look.intersections && self.crossings.of(frame, scenery).is_some(),
+            size,
+        })
+    }
+
+    fn list(
+        &mut self,
+        eye: Eye,
+        frame: &Arc<Frame>,
+        drawn: &Drawn,
+        scenery: &Arc<Scenery>,
+    ) -> DrawList {
+        let mut list = self.base_list(frame, drawn, scenery).clone();
+        if drawn.marked
+            && let Some(crossings) = self.crossings.of(frame, scenery)
+        {
+            list.push_crossings(&crossings, &frame.garments, drawn.view.eye);
+        }
+        match (eye, &drawn.shot) {
+            (Eye::Shot, _) => list.ground_lines.clear(),
+            (Eye::Witness, Some(shot)) => {
+                let no_trail = CameraTrail::default();
+                let camera = ShotCamera {
+                    view: shot,
+                    trail: self.trail.as_ref().map_or(&no_trail, |(_, trail)| trail),
+                    frustum_depth: ShotCamera::frustum_depth_past(shot, Bounds::of_cloth(frame)),
+                    ghost: drawn.ghost.as_ref(),
+                };
+                list.push_shot_camera(&camera, drawn.view.eye);
+            }
+            (Eye::Witness, None) => {}
+        }
+        list
+    }
+
+    /// What both eyes see of a frame.
+    fn base_list(&mut self, frame: &Arc<Frame>, drawn: &Drawn, scenery: &Scenery) -> &DrawList {
+        /// Of A and of B.
+        const LISTS_KEPT: usize = 2;
+        let fits = |cached: &CachedList| {
+            (&cached.frame, &cached.scenery) == (&drawn.frame, &drawn.scenery)
+                && (cached.look, cached.colour) == (drawn.look, drawn.colour)
+        };
+        if let Some(place) = self.lists.iter().position(fits) {
+            return &self.lists[place].list;
+        }
+        let ground = self.found_witness.as_ref().map(|found| found.ground);
+        let options = PictureOptions {
+            colour_by: drawn.colour,
+            wire_strength: if drawn.look.wireframe {
+                PictureOptions::default().wire_strength
+            } else {
+                0.0
+            },
+            ground_height: ground.filter(|_| drawn.look.ground),
+            ..PictureOptions::default()
+        };
+        let list = DrawList::new(frame, &scenery.surfaces, &options);
+        if self.lists.len() == LISTS_KEPT {
+            self.lists.remove(0);
+        }
+        self.lists.push(CachedList {
+            frame: drawn.frame.clone(),
+            scenery: drawn.scenery.clone(),
+            look: drawn.look,
+            colour: drawn.colour,
+            list,
+        });
+        &self.lists.last().expect("pushed just now").list
+    }
+
+    fn follow_camera(&mut self, scenery: &Scenery) {
+        let Some(path) = &scenery.camera else {
+            self.trail = None;
+            return;
+        };
+        if self.trail.as_ref().is_none_or(|(of, _)| !Arc::ptr_eq(of, path)) {
+            self.trail = Some((path.clone(), CameraTrail::of(path, scenery.last)));
+        }
+    }
+
+    /// Finds the witness's place from the first cloth that is there; it stays while the shot is open.
+    fn find_witness(&mut self, frame: &Frame, previewer: &Previewer, scenery: &Scenery) {
+        let found = self.found_witness.as_ref().is_some_and(|found| found.name == scenery.name);
+        if found || previewer.shown().is_none() {
+            return;
+        }
+        let cloth = Bounds::of_cloth(frame);
+        let mut subject = WitnessSubject { cloth, views: Vec::new() };
+        if let Some(path) = &scenery.camera {
+            let stride = (scenery.last / PATH_SAMPLES).max(1) as usize;
+            let frames = (0..=scenery.last).step_by(stride);
+            subject.views = frames.map(|frame| path.view(f64::from(frame))).collect();
+        }
+        for (number, (surface, &pose)) in
+            scenery.surfaces.iter().zip(&frame.obstacle_poses).enumerate()
+        {
+            subject = subject.with_obstacle(frame.points_of_obstacle(number, surface), pose);
+        }
+        let size = self.panes[index(Eye::Witness, Side::B)].wanted.unwrap_or(USUAL_SIZE);
+        let view = witness_view(&subject, size);
+        let distance = view.eye.distance(subject.cloth.centre());
+        self.found_witness = Some(FoundWitness {
+            name: scenery.name.clone(),
+            place: EyeAndTarget::of_view(&view, distance),
+            ground: subject.cloth.min.z,
+        });
+    }
+}
+
+/// A picture to be drawn.
+pub struct Wanted {
+    list: DrawList,
+    drawn: Drawn,
+}
+
+impl Pane {
+    fn resize(&mut self, gpu: &Gpu, painter: &mut UiPainter, size: [u32; 2]) {
+        match &mut self.texture {
+            Some((texture, _)) if texture.size() == size => {}
+            Some((texture, id)) => {
+                *texture = TargetTexture::new(gpu, size);
+                painter.replace(gpu, *id, texture);
+            }
+            None => {
+                let texture = TargetTexture::new(gpu, size);
+                let id = painter.register(gpu, &texture);
+                self.texture = Some((texture, id));
+            }
+        }
+    }
+}
+
+impl Ranges {
+    fn see(&mut self, frame: &Arc<Frame>) {
+        let this = Same(frame.clone());
+        if self.seen.as_ref() == Some(&this) {
+            return;
+        }
+        self.seen = Some(this);
+        self.least_factor = frame.report.view_factor_min;
+        let edge = ColourBy::EdgeSize(LogRange { start: 1.0, end: 2.0 });
+        let speed = ColourBy::Speed { limit: 1.0 };
+        for mesh in &frame.garments {
+            for face in mesh.face_ids() {
+                let length = edge.value(mesh, face);
+                let range =
+                    self.edge.get_or_insert(LogRange { start: length, end: length * 1.001 });
+                range.start = range.start.min(length);
+                range.end = range.end.max(length);
+                self.speed = self.speed.max(speed.value(mesh, face));
+            }
+        }
+    }
+}
+
+/// What the witness sees from a place.
+pub(super) fn witness(place: EyeAndTarget, size: [u32; 2]) -> View {
+    place.view(&image_plane(size))
+}
+
+fn image_plane(size: [u32; 2]) -> ImagePlane {
+    let lens = Lens::FieldOfView { fov_y: WITNESS_FOV_Y };
+    ImagePlane { lens, resolution: size, pixel_aspect: 1.0 }
+}
+
+/// A view through the same lens from another place.
+pub(super) fn placed(view: &View, place: EyeAndTarget) -> View {
+    let back = (place.eye - place.target).try_normalize().unwrap_or(view.back);
+    let right = DVec3::Z.cross(back).try_normalize().unwrap_or(view.right);
+    View { eye: place.eye, right, up: back.cross(right), back, ..*view }
+}
+
+/// The shot camera as a place: it looks at the cloth's distance.
+pub(super) fn place_of(view: &View, previewer: &Previewer) -> EyeAndTarget {
+    if let Some(place) = previewer.state().dragged_camera {
+        return place;
+    }
+    let centre = previewer.shown().map(|shown| Bounds::of_cloth(&shown.frame).centre());
+    let distance = centre.map_or(1.0, |centre| -view.point_in_camera(centre).z);
+    EyeAndTarget::of_view(view, if distance > view.near { distance } else { 1.0 })
+}
+
+/// From the settings' range to what a frame has: one that other settings made may lie beyond it.
+fn view_factor(scenery: &Scenery, least: f64) -> ColourBy {
+    match ColourBy::view_factor(&scenery.view_settings) {
+        ColourBy::ViewFactor(range) if least > 0.0 && least < range.end => {
+            ColourBy::ViewFactor(LogRange { end: least, ..range })
+        }
+        by => by,
+    }
+}
