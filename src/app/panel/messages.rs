@@ -135,7 +135,8 @@ fn legend(ui: &Ui, context: &Context<'_>) {
     for tick in colour_by.ticks() {
         let at = egui::pos2(strip.left() + tick.coordinate as f32 * strip.width(), strip.bottom());
         let label = painter.layout_no_wrap(tick.label, font.clone(), theme::TEXT);
-        let left = at.x - 0.5 * label.size().x;
+        let ends = [plate.left() + 2.0, plate.right() - label.size().x - 2.0];
+        let left = (at.x - 0.5 * label.size().x).min(ends[1]).max(ends[0]);
         // Those that would write over one another are left out.
         if left >= free_from {
             free_from = left + label.size().x + 4.0;
