@@ -123,6 +123,10 @@ struct Ranges {
     seen: Option<Same<Frame>>,
 }
 
+impl Ranges {
+    const NOTHING_SEEN: Self = Self { edge: None, speed: 0.0, least_factor: 1.0, seen: None };
+}
+
 const SAFE_LINE: Color32 = Color32::from_rgba_premultiplied(40, 42, 48, 170);
 
 impl Viewports {
@@ -132,7 +136,7 @@ impl Viewports {
             panes: Default::default(),
             trail: None,
             found_witness: None,
-            ranges: Ranges { edge: None, speed: 0.0, least_factor: 1.0, seen: None },
+            ranges: Ranges::NOTHING_SEEN,
             lists: Vec::new(),
             crossings: FoundCrossings::new(wake),
             grabbed: false,
@@ -148,7 +152,7 @@ impl Viewports {
     /// Something else was opened.
     pub fn forget_place(&mut self) {
         self.found_witness = None;
-        self.ranges = Ranges { edge: None, speed: 0.0, least_factor: 1.0, seen: None };
+        self.ranges = Ranges::NOTHING_SEEN;
     }
 
     /// Lays the panes out over the rest of the space.

@@ -47,8 +47,8 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// # Errors
 /// If the drawing library refuses.
 pub fn contact_svg(points: &[ContactPoint]) -> Result<String, Box<dyn Error>> {
-    let scenes = distinct(points.iter().map(|p| p.scene.as_str()));
-    let methods = distinct(points.iter().map(|p| p.method.as_str()));
+    let scenes = super::distinct(points.iter().map(|p| p.scene.as_str()));
+    let methods = super::distinct(points.iter().map(|p| p.method.as_str()));
     let rows = scenes.len().max(1);
     let mut text = String::new();
     {
@@ -155,17 +155,6 @@ fn figure(value: f64) -> String {
     } else {
         text
     }
-}
-
-/// Each name once, in the order in which they first come.
-fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let mut found = Vec::new();
-    for name in names {
-        if !found.contains(&name) {
-            found.push(name);
-        }
-    }
-    found
 }
 
 #[cfg(test)]

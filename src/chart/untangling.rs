@@ -29,8 +29,8 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// # Errors
 /// If the drawing library refuses.
 pub fn untangling_svg(curves: &[UntanglingCurve]) -> Result<String, Box<dyn Error>> {
-    let tangles = distinct(curves.iter().map(|c| c.tangle.as_str()));
-    let methods = distinct(curves.iter().map(|c| c.method.as_str()));
+    let tangles = super::distinct(curves.iter().map(|c| c.tangle.as_str()));
+    let methods = super::distinct(curves.iter().map(|c| c.method.as_str()));
     let rows = tangles.len().div_ceil(COLUMNS).max(1);
     let mut text = String::new();
     {
@@ -86,17 +86,6 @@ fn draw(
         .background_style(WHITE.mix(0.8))
         .draw()?;
     Ok(())
-}
-
-/// Each name once, in the order in which they first come.
-fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let mut found = Vec::new();
-    for name in names {
-        if !found.contains(&name) {
-            found.push(name);
-        }
-    }
-    found
 }
 
 #[cfg(test)]

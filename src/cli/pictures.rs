@@ -7,11 +7,13 @@ use image::RgbaImage;
 
 use super::failure::Failure;
 use super::footage::Footage;
+use crate::preview::{EyeAndTarget, ImagePlane};
 use crate::render::{
     AdapterChoice, Bounds, CameraTrail, ColourBy, CrossingMarks, Edges, Headless, LogRange,
-    PictureOptions, ShotCamera, WitnessSubject, size_of_width, witness_view,
+    PictureOptions, STRAIN_LIMIT, ShotCamera, WITNESS_FOV_Y, WitnessSubject, size_of_width,
+    witness_view,
 };
-use crate::shot::{CameraKey, CameraPath, Lens, Track, View};
+use crate::shot::{CameraPath, Lens, View};
 use crate::sim::Frame;
 
 /// How frames are drawn.
@@ -25,7 +27,7 @@ pub struct PictureArgs {
     pub adapter: AdapterChoice,
     /// Place of the witness camera and what it looks at, in metres; without it one is found
     #[arg(long, value_name = "X,Y,Z:X,Y,Z", value_parser = parse_witness, allow_hyphen_values = true)]
-    pub witness: Option<WitnessPlace>,
+    pub witness: Option<EyeAndTarget>,
     /// How the edges of the mesh are coloured
     #[arg(long, value_enum, default_value_t = EdgeColour::Dark)]
     pub edges: EdgeColour,
@@ -61,19 +63,6 @@ pub enum EdgeColour {
     /// green
     Frame,
 }
-
-/// A witness camera from the command line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WitnessPlace {
-    pub eye: DVec3,
-    pub target: DVec3,
-}
-
-/// Vertical field of view of a witness that is placed by hand (rad).
-const WITNESS_FOV_Y: f64 = 0.6;
-
-/// The strain at the ends of its colour scale: what woven cloth hardly ever exceeds.
-const STRAIN_LIMIT: f64 = 0.1;
 
 /// Shot views that decide where the witness stands: enough to know the path, few enough to be quick.
 const PATH_SAMPLES: usize = 24;
@@ -225,28 +214,12 @@ fn fastest(footage: &Footage) -> Result<f64> {
     Ok(fastest)
 }
 
-fn placed_witness(place: WitnessPlace, size: [u32; 2]) -> View {
-    let distance = place.eye.distance(place.target);
-    let key = CameraKey {
-        frame: 0.0,
-        eye: place.eye,
-        target: place.target,
-        up: DVec3::Z,
-        lens: Lens::FieldOfView { fov_y: WITNESS_FOV_Y },
-        cut: false,
-    };
-    let path = CameraPath {
-        name: "witness".to_owned(),
-        resolution: size,
-        pixel_aspect: 1.0,
-        near: 1e-3 * distance,
-        far: 1e3 * distance,
-        track: Track::Keys(vec![key]),
-    };
-    path.view(0.0)
+fn placed_witness(place: EyeAndTarget, size: [u32; 2]) -> View {
+    let lens = Lens::FieldOfView { fov_y: WITNESS_FOV_Y };
+    place.view(&ImagePlane { lens, resolution: size, pixel_aspect: 1.0 })
 }
 
-fn parse_witness(text: &str) -> Result<WitnessPlace> {
+fn parse_witness(text: &str) -> Result<EyeAndTarget> {
     let point = |part: &str| -> Result<DVec3> {
         let numbers: Vec<f64> = part
             .split(',')
@@ -260,7 +233,7 @@ fn parse_witness(text: &str) -> Result<WitnessPlace> {
     let (eye, target) = text
         .split_once(':')
         .ok_or_else(|| anyhow!("{text:?} has no ':' between the place and what it looks at"))?;
-    let place = WitnessPlace { eye: point(eye)?, target: point(target)? };
+    let place = EyeAndTarget { eye: point(eye)?, target: point(target)? };
     if (place.target - place.eye).truncate() == glam::DVec2::ZERO {
         return Err(anyhow!("{text:?} looks straight up or down, or nowhere"));
     }

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::Edits;
 use super::key::{FrameKey, StepKey, step_keys};
-use crate::request::{FrameRange, Request, RequestError, Requested};
+use crate::request::{Request, RequestError, Requested};
 use crate::scene::{Surface, ViewSettings};
 use crate::shot::CameraPath;
 use crate::sim::SimSettings;
@@ -47,10 +47,6 @@ impl Plan {
 
     pub fn last(&self) -> u32 {
         self.requested.frames.last
-    }
-
-    pub fn frames(&self) -> FrameRange {
-        self.requested.frames
     }
 
     /// The keys that frames 0 to the last would have, by frame. Those up to an anchor are not made by

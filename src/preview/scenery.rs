@@ -23,7 +23,6 @@ pub struct Scenery {
     pub surfaces: Vec<Arc<Surface>>,
     /// One for each garment.
     pub view_settings: Vec<ViewSettings>,
-    pub garments: Vec<String>,
     /// The hash that a run with the settings in force carries.
     pub settings_hash: String,
 }
@@ -39,7 +38,6 @@ impl Scenery {
             camera: plan.camera().cloned().map(Arc::new),
             surfaces: plan.surfaces(),
             view_settings: plan.view_settings(),
-            garments: scene.garments.iter().map(|g| g.name.clone()).collect(),
             settings_hash: plan.settings_hash().to_owned(),
         }
     }
@@ -58,7 +56,6 @@ impl Scenery {
             camera: viewers.into_iter().next().map(Arc::new),
             surfaces: run.obstacles(),
             view_settings: garments.into_iter().flatten().filter_map(view).collect(),
-            garments: info.garments.clone(),
             settings_hash: info.input_hash.clone(),
         }
     }

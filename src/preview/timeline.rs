@@ -35,13 +35,10 @@ pub struct Cost {
     pub faces: usize,
     /// (s).
     pub wall: f64,
-    /// Of the process (s).
-    pub cpu: f64,
     pub stages: StageSeconds,
     pub intersections: Option<usize>,
     /// Largest principal stretch minus 1.
     pub largest_stretch: f64,
-    pub view_factor_mean: f64,
 }
 
 impl Cost {
@@ -50,11 +47,9 @@ impl Cost {
         Self {
             faces: frame.face_count(),
             wall: report.stages.total(),
-            cpu: report.cpu_seconds,
             stages: report.stages,
             intersections: report.intersections,
             largest_stretch: report.largest_stretch,
-            view_factor_mean: report.view_factor_mean,
         }
     }
 }

@@ -29,6 +29,10 @@ impl LogRange {
     }
 }
 
+/// The strain at the ends of its colour scale, unless somebody says otherwise: what woven cloth hardly
+/// ever exceeds.
+pub const STRAIN_LIMIT: f64 = 0.1;
+
 /// What the colour of a face shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColourBy {

@@ -40,7 +40,7 @@ const BODY_ROOM: f64 = 0.06;
 const ELEVATION: f64 = 0.42;
 const AZIMUTHS: usize = 48;
 /// Vertical field of view (rad): long enough that little is distorted.
-const FOV_Y: f64 = 0.6;
+pub const WITNESS_FOV_Y: f64 = 0.6;
 /// Part of the frame that is left free on each side.
 const MARGIN: f64 = 0.05;
 /// Radius of a subject without extent (m).
@@ -117,7 +117,7 @@ fn fitted(back: DVec3, points: &[DVec3], resolution: [u32; 2]) -> View {
     let right = DVec3::Z.cross(back).normalize();
     let up = back.cross(right);
     let [width, height] = resolution.map(|px| f64::from(px.max(1)));
-    let half_gate = DVec2::new(width / height, 1.0) * (0.5 * FOV_Y).tan();
+    let half_gate = DVec2::new(width / height, 1.0) * (0.5 * WITNESS_FOV_Y).tan();
     let inner = half_gate * (1.0 - 2.0 * MARGIN);
     let z = |p: &DVec3| p.dot(back);
     let axis = |axis: DVec3, t: f64| {

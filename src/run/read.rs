@@ -116,7 +116,7 @@ impl RunReader {
 }
 
 /// The content is read as that of the version it was written in.
-fn read_sealed<T>(
+pub(super) fn read_sealed<T>(
     path: &Path,
     kind: Kind,
     content_from_bytes: impl FnOnce(u32, &[u8]) -> Result<T, StateError>,

@@ -120,7 +120,8 @@ pub(super) fn write_obstacles(place: &Place, obstacles: &[Arc<Surface>]) -> Resu
     write_sealed(&place.obstacles(), OBSTACLES, &obstacle_bytes(obstacles))
 }
 
-fn write_sealed(path: &Path, kind: Kind, content: &[u8]) -> Result<(), RunError> {
+/// The file appears under its name when it is whole.
+pub(super) fn write_sealed(path: &Path, kind: Kind, content: &[u8]) -> Result<(), RunError> {
     let file = seal(kind, content).map_err(RunError::io("compress", path))?;
     write_whole(path, &file)
 }

@@ -41,23 +41,19 @@ pub fn show(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
 fn changed_files(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
     let changed = context.previewer.changed_files();
     let Some(first) = changed.first() else { return };
-    egui::Window::new("Changed on disk")
-        .constrain_to(ui.max_rect())
-        .collapsible(false)
-        .resizable(false)
-        .show(ui.ctx(), |ui| {
-            let others = changed.len() - 1;
-            let more = if others > 0 { format!(" and {others} more") } else { String::new() };
-            ui.label(format!("{}{more}", first.display()));
-            ui.horizontal(|ui| {
-                if ui.button("Reload").clicked() {
-                    actions.push(Action::Reload);
-                }
-                if ui.button("Not now").clicked() {
-                    actions.push(Action::IgnoreChanges);
-                }
-            });
+    dialog(ui, "Changed on disk").show(ui.ctx(), |ui| {
+        let others = changed.len() - 1;
+        let more = if others > 0 { format!(" and {others} more") } else { String::new() };
+        ui.label(format!("{}{more}", first.display()));
+        ui.horizontal(|ui| {
+            if ui.button("Reload").clicked() {
+                actions.push(Action::Reload);
+            }
+            if ui.button("Not now").clicked() {
+                actions.push(Action::IgnoreChanges);
+            }
         });
+    });
 }
 
 /// Before changed settings are lost.
@@ -65,24 +61,20 @@ fn unsaved(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
     if context.previewer.state().unsaved.is_none() {
         return;
     }
-    egui::Window::new("Changed settings")
-        .constrain_to(ui.max_rect())
-        .collapsible(false)
-        .resizable(false)
-        .show(ui.ctx(), |ui| {
-            ui.label("The changed settings are not saved.");
-            ui.horizontal(|ui| {
-                if ui.button("Save first").clicked() {
-                    actions.extend([Action::GiveUpEdits { yes: false }, Action::Save]);
-                }
-                if ui.button("Give them up").clicked() {
-                    actions.push(Action::GiveUpEdits { yes: true });
-                }
-                if ui.button("Go back").clicked() {
-                    actions.push(Action::GiveUpEdits { yes: false });
-                }
-            });
+    dialog(ui, "Changed settings").show(ui.ctx(), |ui| {
+        ui.label("The changed settings are not saved.");
+        ui.horizontal(|ui| {
+            if ui.button("Save first").clicked() {
+                actions.extend([Action::GiveUpEdits { yes: false }, Action::Save]);
+            }
+            if ui.button("Give them up").clicked() {
+                actions.push(Action::GiveUpEdits { yes: true });
+            }
+            if ui.button("Go back").clicked() {
+                actions.push(Action::GiveUpEdits { yes: false });
+            }
         });
+    });
 }
 
 fn export(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
@@ -90,18 +82,19 @@ fn export(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
     if progress.state != ExportState::Running {
         return;
     }
-    egui::Window::new("Exporting")
-        .constrain_to(ui.max_rect())
-        .collapsible(false)
-        .resizable(false)
-        .show(ui.ctx(), |ui| {
-            let share = progress.done as f32 / progress.total.max(1) as f32;
-            let text = format!("{} of {}", progress.done, progress.total);
-            ui.add(egui::ProgressBar::new(share).desired_width(260.0).text(text));
-            if ui.button("Cancel").clicked() {
-                actions.push(Action::CancelExport);
-            }
-        });
+    dialog(ui, "Exporting").show(ui.ctx(), |ui| {
+        let share = progress.done as f32 / progress.total.max(1) as f32;
+        let text = format!("{} of {}", progress.done, progress.total);
+        ui.add(egui::ProgressBar::new(share).desired_width(260.0).text(text));
+        if ui.button("Cancel").clicked() {
+            actions.push(Action::CancelExport);
+        }
+    });
+}
+
+/// A small window over the viewports.
+fn dialog(ui: &Ui, title: &'static str) -> egui::Window<'static> {
+    egui::Window::new(title).constrain_to(ui.max_rect()).collapsible(false).resizable(false)
 }
 
 /// What the colours stand for, in the viewports' corner.

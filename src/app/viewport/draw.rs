@@ -10,22 +10,19 @@ use super::{
 use crate::preview::{ColourMode, EyeAndTarget, ImagePlane, Look, Previewer, Scenery};
 use crate::render::{
     Bounds, CameraTrail, ColourBy, CrossingMarks, DrawList, Gpu, LogRange, PictureOptions,
-    RenderError, Renderer, ShotCamera, TargetTexture, UiPainter, WitnessSubject, witness_view,
+    RenderError, Renderer, STRAIN_LIMIT, ShotCamera, TargetTexture, UiPainter, WITNESS_FOV_Y,
+    WitnessSubject, witness_view,
 };
 use crate::shot::{Lens, View};
 use crate::sim::Frame;
 
-/// The strain at the ends of its colour scale: what woven cloth hardly ever exceeds.
-const STRAIN_LIMIT: f64 = 0.1;
-/// Vertical field of view of the witness (rad): long enough that little is distorted.
-const WITNESS_FOV_Y: f64 = 0.6;
 /// Shot views that decide where the witness stands.
 const PATH_SAMPLES: u32 = 24;
 /// Size of the picture for which the witness's place is found (px).
 const USUAL_SIZE: [u32; 2] = [1280, 720];
 
 impl Viewports {
-    /// Builds the lists of what has changed; returns whether anything is to be drawn.
+    /// Builds the lists of what has changed: which panes are to be drawn, and what.
     pub fn prepare(&mut self, previewer: &Previewer) -> Vec<(usize, Wanted)> {
         let Some(scenery) = previewer.scenery().cloned() else { return Vec::new() };
         let mut wanted = Vec::new();

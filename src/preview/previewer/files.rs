@@ -117,7 +117,7 @@ fn shot_text(from: &Path, to: &Path, edits: &Edits) -> Result<String, String> {
     let original = fs::read_to_string(from)
         .map_err(|error| format!("cannot read {:?}: {error}", from.display()))?;
     let folder = |path: &Path| {
-        let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = folder_of(path);
         fs::canonicalize(folder)
             .map_err(|error| format!("cannot write to {:?}: {error}", folder.display()))
     };
@@ -142,7 +142,7 @@ fn shot_text(from: &Path, to: &Path, edits: &Edits) -> Result<String, String> {
 /// A copy of the program's own shot with edits, and beside it the files that it names. Files of other
 /// content that are there already are not written over.
 fn write_own_shot(to: &Path, edits: &Edits) -> Result<(), String> {
-    let folder = to.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder_of(to);
     let (text, files) = own_shot_parts();
     let original = String::from_utf8_lossy(text);
     let text = saved_text(&original, edits).map_err(|error| error.to_string())?;
@@ -168,7 +168,7 @@ fn is_native(text: &str) -> bool {
 
 /// The file is the old one or the new one, never a part.
 fn write_whole(path: &Path, text: &str) -> Result<(), String> {
-    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder_of(path);
     let write = || {
         let mut file = tempfile::NamedTempFile::new_in(folder)?;
         file.write_all(text.as_bytes())?;
@@ -179,4 +179,9 @@ fn write_whole(path: &Path, text: &str) -> Result<(), String> {
         Ok::<(), std::io::Error>(())
     };
     write().map_err(|error| format!("cannot write {:?}: {error}", path.display()))
+}
+
+/// Where a file is, or is to be.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

@@ -1,188 +1,19 @@
 //! The previewer with its threads, on a small sheet that hangs from two corners.
 
-use std::fmt::Write as _;
+mod stage;
+
 use std::fs;
-use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use serde_json::json;
-use tempfile::TempDir;
-
 use glam::DVec3;
+use serde_json::json;
 
 use super::*;
 use crate::preview::{FrameStatus, Level, Reach};
-use crate::request::{FrameRange, Request};
+use crate::request::Request;
 use crate::run::RunWriter;
-use crate::sim::{Simulation, SizingMode};
-
-const LAST: u32 = 12;
-const PATIENCE: Duration = Duration::from_secs(120);
-
-/// A shot of a sheet under a camera with keys at 0, 4 (a cut), 8 and 12, and a folder for it.
-struct Stage {
-    folder: TempDir,
-}
-
-impl Stage {
-    fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("sheet.obj"), sheet()).unwrap();
-        fs::write(folder.path().join("shot.json"), SHOT).unwrap();
-        Self { folder }
-    }
-
-    fn shot(&self) -> PathBuf {
-        self.folder.path().join("shot.json")
-    }
-
-    fn request(&self) -> Request {
-        Request {
-            shot: Some(self.shot()),
-            camera: None,
-            sets: Vec::new(),
-            fps: None,
-            frames: Some(FrameRange { first: 0, last: LAST }),
-            sizing: SizingMode::View,
-        }
-    }
-
-    fn start(&self, simulating: bool) -> Driven {
-        self.open(Source::Shot(self.request()), simulating)
-    }
-
-    fn open(&self, source: Source, simulating: bool) -> Driven {
-        self.open_with(source, simulating, Some(self.folder.path().join("cache")), 64 << 20)
-    }
-
-    fn open_with(
-        &self,
-        source: Source,
-        simulating: bool,
-        cache: Option<PathBuf>,
-        memory: u64,
-    ) -> Driven {
-        let previewer = Previewer::start(Start {
-            source,
-            look: Look::default(),
-            cache,
-            memory,
-            simulating,
-            wake: Arc::new(|| {}),
-        });
-        Driven(previewer)
-    }
-}
-
-const SHOT: &str = r#"{
-    "shotsilk": 1,
-    // As short as can be.
-    "fps": 24, "steps_per_frame": 2,
-    "view": {"anticipation_frames": 2, "nu_out": 0.2, "margin_m": 0.1},
-    "fabrics": {"cloth": {"preset": "cotton"}},
-    "garments": [{
-        "mesh": "sheet.obj", "fabric": "cloth",
-        "sizing": {"edge_length_min": 0.05, "edge_length_max": 0.3}
-    }],
-    "handles": [{"nodes": [0, 4]}],
-    "camera": {
-        "resolution": [320, 180], "fov_y_deg": 20,
-        "keys": [
-            {"frame": 0, "eye": [0, -3, 0.2], "target": [0, 0, 0.2]},
-            {"frame": 4, "eye": [0, -3, 0.2], "target": [0.6, 0, 0.2], "cut": true},
-            {"frame": 8, "eye": [0.5, -3, 0.2], "target": [0.3, 0, 0.2]},
-            {"frame": 12, "eye": [0, -3, 0.2], "target": [0, 0, 0.2]}
-        ]
-    }
-}
-"#;
-
-/// 5 x 5 nodes, 0.8 m wide.
-fn sheet() -> String {
-    let mut obj = String::new();
-    let at = |k: u32| 0.2 * f64::from(k) - 0.4;
-    for (j, i) in (0..5).flat_map(|j| (0..5).map(move |i| (j, i))) {
-        writeln!(obj, "v {} {} {}\nvt {} {}", at(i), 0.02 * at(j), -at(j), at(i), -at(j)).unwrap();
-    }
-    for (j, i) in (0..4).flat_map(|j| (0..4).map(move |i| (j, i))) {
-        let [a, b, c, d] =
-            [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].map(|(i, j)| 5 * j + i + 1);
-        writeln!(obj, "f {a}/{a} {c}/{c} {d}/{d}\nf {a}/{a} {d}/{d} {b}/{b}").unwrap();
-    }
-    obj
-}
-
-/// A previewer and the patience to wait for it.
-struct Driven(Previewer);
-
-impl Driven {
-    fn until(&mut self, what: &str, is_so: impl Fn(&Previewer) -> bool) {
-        let began = Instant::now();
-        while !is_so(&self.0) {
-            self.0.receive();
-            let errors = self.0.state.messages.iter().filter(|m| m.level == Level::Error);
-            assert_eq!(errors.count(), 0, "{:?}", self.0.state.messages);
-            assert!(began.elapsed() < PATIENCE, "{what} has not come about");
-            std::thread::sleep(Duration::from_millis(1));
-        }
-    }
-
-    fn until_opened(&mut self) {
-        self.until("opening", |p| !p.is_opening());
-    }
-
-    fn until_done(&mut self) {
-        self.until("the last frame", |p| {
-            let is_there =
-                |frame| matches!(p.timeline.status(frame), FrameStatus::Ready | FrameStatus::Mixed);
-            !p.is_opening() && p.timeline.len() > 1 && (1..=p.timeline.last()).all(is_there)
-        });
-    }
-
-    fn act(&mut self, action: Action) {
-        self.0.act(action);
-    }
-
-    fn statuses(&self) -> String {
-        let letter = |frame| match self.0.timeline.status(frame) {
-            FrameStatus::Ready => 'r',
-            FrameStatus::Mixed => 'm',
-            FrameStatus::Stale => 's',
-            FrameStatus::Missing => '.',
-        };
-        (0..self.0.timeline.len() as u32).map(letter).collect()
-    }
-
-    fn frame(&mut self, number: u32) -> Arc<Frame> {
-        self.act(Action::GoTo { frame: number });
-        self.until("the frame", |p| p.shown().is_some_and(|shown| shown.number == number));
-        self.0.shown().unwrap().frame.clone()
-    }
-}
-
-/// Positions and velocities, bit by bit.
-fn bits(frame: &Frame) -> Vec<u64> {
-    let of = |mesh: &Arc<crate::mesh::Mesh>| {
-        let both = mesh.position.iter().chain(mesh.velocity.iter());
-        both.flat_map(|v| v.to_array()).map(f64::to_bits).collect::<Vec<_>>()
-    };
-    frame.garments.iter().flat_map(of).collect()
-}
-
-/// The last frame of a plan, simulated without a previewer.
-fn straight(plan: &Plan) -> Frame {
-    let scene = plan.requested.scene.clone();
-    let (mut simulation, mut frame) = Simulation::start(scene, plan.settings()).unwrap();
-    for _ in 0..plan.last() {
-        frame = simulation.advance().unwrap();
-    }
-    frame
-}
-
-fn windy(x: f64) -> Action {
-    Action::Set { path: "air.velocity".into(), value: json!([x, 2.0, 0.0]) }
-}
+use crate::sim::Simulation;
+use stage::{LAST, SHOT, Stage, bits, straight, windy};
 
 #[test]
 fn a_moved_camera_key_has_only_the_frames_computed_again_that_can_see_it_with_the_bits_of_a_fresh_run()
@@ -294,10 +125,7 @@ fn a_failed_opening_leaves_the_edits_and_another_asks_before_they_are_lost() {
     assert!(p.0.state.unsaved.is_none() && !p.0.state.version.edits.is_empty());
     p.act(Action::Open { path: stage.folder.path().join("nothing.json") });
     p.act(Action::GiveUpEdits { yes: true });
-    let began = Instant::now();
-    while p.0.is_opening() && began.elapsed() < PATIENCE {
-        p.0.receive();
-    }
+    p.until_refused();
     assert_eq!(p.0.state.messages.last().unwrap().level, Level::Error);
     assert_eq!(p.0.state.version.edits.overrides(), ["air.velocity=[1.0,2.0,0.0]"]);
     assert_eq!(p.0.scenery().unwrap().name, "shot");
@@ -363,10 +191,7 @@ fn a_bad_value_is_said_and_changes_nothing() {
     let mut p = stage.start(false);
     p.until_opened();
     p.act(Action::Set { path: "view.nu_out".into(), value: json!(-1.0) });
-    let began = Instant::now();
-    while p.0.is_opening() && began.elapsed() < PATIENCE {
-        p.0.receive();
-    }
+    p.until_refused();
     let said = &p.0.state.messages.last().unwrap().text;
     assert!(said.contains("view.nu_out") && said.contains("-1"), "{said}");
     assert!(p.0.state.version.edits.is_empty() && !p.0.state.history.can_undo());
@@ -379,10 +204,7 @@ fn a_file_that_is_no_shot_leaves_what_is_open() {
     p.until_done();
     let keys = p.0.timeline.keys();
     p.act(Action::Open { path: stage.folder.path().join("sheet.obj") });
-    let began = Instant::now();
-    while p.0.is_opening() && began.elapsed() < PATIENCE {
-        p.0.receive();
-    }
+    p.until_refused();
     assert_eq!(p.0.state.messages.last().unwrap().level, Level::Error);
     assert_eq!(p.0.timeline.keys(), keys);
     assert!(matches!(p.0.source(), Source::Shot(request) if request.shot == Some(stage.shot())));
