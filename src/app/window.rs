@@ -33,8 +33,10 @@ pub fn run(
     make_desk: impl FnOnce(Wake) -> Desk,
     player: Option<Player>,
 ) -> Result<()> {
-    let event_loop =
-        EventLoop::<Woken>::with_user_event().build().context("there is no display")?;
+    let event_loop = EventLoop::<Woken>::with_user_event()
+        .build()
+        // Its own words name the place in its source.
+        .map_err(|_| anyhow::anyhow!("there is no display that a window could be opened on"))?;
     let wake = wake(event_loop.create_proxy());
     let mut program = Program {
         desk: make_desk(wake),
