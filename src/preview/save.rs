@@ -1,7 +1,9 @@
 //! Putting edits into the text of a shot file, and nothing else: comments, layout and number formats
 //! stay as their author wrote them.
 
+mod entries;
 mod insert;
+mod keep;
 mod layout;
 mod put;
 mod rebase;

@@ -100,7 +100,7 @@ fn anchor<'d, 'a>(
 }
 
 /// The comma that follows an entry, past comments.
-fn comma_behind(text: &str, mut at: usize) -> Option<usize> {
+pub(super) fn comma_behind(text: &str, mut at: usize) -> Option<usize> {
     loop {
         let rest = &text[at..];
         at += rest.len() - rest.trim_start().len();
@@ -113,7 +113,7 @@ fn comma_behind(text: &str, mut at: usize) -> Option<usize> {
 }
 
 /// Behind the comments that follow on the same line.
-fn end_of_remark(text: &str, at: usize) -> usize {
+pub(super) fn end_of_remark(text: &str, at: usize) -> usize {
     let mut end = at;
     loop {
         let rest = &text[end..];

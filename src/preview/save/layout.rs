@@ -3,7 +3,7 @@
 use serde_json::{Number, Value};
 
 /// Longest line on which a group or a list of groups is kept together (characters).
-const LINE_MAX: usize = 110;
+pub(super) const LINE_MAX: usize = 110;
 
 /// What is no longer than this is kept together wherever it stands (characters).
 const SHORT_MAX: usize = 40;

@@ -85,10 +85,7 @@ impl<'a> Document<'a> {
     }
 
     fn replaced(&self, node: &ast::Value<'_>, value: &Value) -> String {
-        let range = node.start()..node.end();
-        let indent = indentation(self.text, range.start);
-        let column = self.column(range.start);
-        self.spliced(range, &self.layout.value(value, indent, column))
+        self.spliced(node.start()..node.end(), &self.kept(node, value))
     }
 
     /// What has to stand at `segments[..depth]`, which the file does not have, for the path to lead

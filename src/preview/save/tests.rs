@@ -1,5 +1,7 @@
 #[path = "tests/elsewhere.rs"]
 mod elsewhere;
+#[path = "tests/remarks.rs"]
+mod remarks;
 
 use proptest::prelude::*;
 use serde_json::json;

@@ -1,0 +1,224 @@
+//! A group or list in place of another, with the remarks of what stays.
+
+use jsonc_parser::ast;
+use jsonc_parser::common::Ranged;
+use jsonc_parser::{CollectOptions, CommentCollectionStrategy, parse_to_ast, parse_to_serde_value};
+use serde_json::{Map, Value};
+
+use super::entries::{Entries, Entry};
+use super::layout::{LINE_MAX, indentation};
+use super::put::Document;
+use crate::scene::SYNTAX;
+
+/// What tells a group in a list from the others there: camera keys are known by their frames.
+const IDENTITY: &str = "frame";
+
+/// Something that is to stand in the new group or list.
+struct Wanted<'v> {
+    /// None in a list.
+    name: Option<&'v str>,
+    value: &'v Value,
+    /// Which of the old entries it is, if it is one.
+    old: Option<usize>,
+}
+
+impl Document<'_> {
+    /// The text of a value in place of a node. What says the same already stays as it is written. Of
+    /// members and elements that stay the remarks stay with them; those of others go with these.
+    pub(super) fn kept(&self, node: &ast::Value<'_>, value: &Value) -> String {
+        let old = &self.text[node.start()..node.end()];
+        if says(old).is_some_and(|said| is_same(&said, value)) {
+            return old.to_owned();
+        }
+        let merged = Entries::of(self.text, node).and_then(|entries| {
+            let wanted = match (node, value) {
+                (ast::Value::Object(_), Value::Object(members)) => {
+                    wanted_members(&entries.list, members)
+                }
+                (ast::Value::Array(_), Value::Array(elements)) => {
+                    self.wanted_elements(&entries.list, elements)
+                }
+                _ => return None,
+            };
+            let any_stays = wanted.iter().any(|wanted| wanted.old.is_some());
+            any_stays.then(|| self.merged(node, &entries, &wanted))
+        });
+        let is_short = |text: &String| text.lines().all(|line| line.chars().count() <= LINE_MAX);
+        merged.filter(|text| is_short(text) || has_remark(old)).unwrap_or_else(|| {
+            let indent = indentation(self.text, node.start());
+            self.layout.value(value, indent, self.column(node.start()))
+        })
+    }
+
+    fn merged(
+        &self,
+        node: &ast::Value<'_>,
+        entries: &Entries<'_, '_>,
+        wanted: &[Wanted<'_>],
+    ) -> String {
+        let newline = self.layout.newline();
+        let indent = entries.indent.unwrap_or(indentation(self.text, node.start()));
+        let mut merged = Pieces { text: String::new(), is_remark_open: false, newline, indent };
+        merged.push_blank(entries.head);
+        for (number, Wanted { name, value, old }) in wanted.iter().enumerate() {
+            let old = old.map(|place| &entries.list[place]);
+            match old {
+                Some(entry) => {
+                    merged.push_blank(entry.before);
+                    merged.push(&[entry.key, &self.kept(entry.node, value)]);
+                }
+                None => {
+                    let key = name.map_or(String::new(), |name| format!("{}: ", Value::from(name)));
+                    let own_line = [newline, indent].concat();
+                    merged.push_blank(match entries.indent {
+                        Some(_) => &own_line,
+                        None if number == 0 => "",
+                        None => " ",
+                    });
+                    let column = indent.chars().count() + key.chars().count();
+                    merged.push(&[&key, &self.layout.value(value, indent, column)]);
+                }
+            }
+            if number + 1 < wanted.len() || entries.ends_with_comma {
+                merged.push(&[","]);
+            }
+            merged.push_blank(old.map_or("", |entry| &entry.after));
+        }
+        merged.push_blank(entries.tail);
+        merged.text
+    }
+
+    /// Elements that are known by their identity, or are the same but for it; others by their places.
+    fn wanted_elements<'v>(
+        &self,
+        entries: &[Entry<'_, '_>],
+        elements: &'v [Value],
+    ) -> Vec<Wanted<'v>> {
+        let said: Vec<Option<Value>> = entries
+            .iter()
+            .map(|entry| says(&self.text[entry.node.start()..entry.node.end()]))
+            .collect();
+        let mut wanted: Vec<Wanted<'v>> =
+            elements.iter().map(|value| Wanted { name: None, value, old: None }).collect();
+        let have_identity = elements.iter().all(|element| element.get(IDENTITY).is_some());
+        if !have_identity {
+            for (place, wanted) in wanted.iter_mut().enumerate().take(entries.len()) {
+                wanted.old = Some(place);
+            }
+            return wanted;
+        }
+        let tells = |value: &Value| value.get(IDENTITY).cloned();
+        let by_identity = |old: &Value, new: &Value| match (tells(old), tells(new)) {
+            (Some(old), Some(new)) => is_same(&old, &new),
+            _ => false,
+        };
+        let but_for_it = |old: &Value, new: &Value| {
+            let without = |value: &Value| {
+                let mut value = value.clone();
+                value.as_object_mut().map(|members| members.remove(IDENTITY));
+                value
+            };
+            is_same(&without(old), &without(new))
+        };
+        for is_it in [&by_identity as &dyn Fn(&Value, &Value) -> bool, &but_for_it] {
+            let mut taken: Vec<bool> = vec![false; entries.len()];
+            wanted.iter().filter_map(|wanted| wanted.old).for_each(|place| taken[place] = true);
+            for wanted in wanted.iter_mut().filter(|wanted| wanted.old.is_none()) {
+                let found = said.iter().enumerate().position(|(place, said)| {
+                    !taken[place] && said.as_ref().is_some_and(|said| is_it(said, wanted.value))
+                });
+                if let Some(place) = found {
+                    taken[place] = true;
+                    wanted.old = Some(place);
+                }
+            }
+        }
+        wanted
+    }
+}
+
+/// Those that stay in the order of the file, each new one behind the one that it comes behind.
+fn wanted_members<'v>(
+    entries: &[Entry<'_, '_>],
+    members: &'v Map<String, Value>,
+) -> Vec<Wanted<'v>> {
+    let mut wanted: Vec<Wanted<'v>> = Vec::new();
+    for (place, entry) in entries.iter().enumerate() {
+        let member = entry.name.and_then(|name| members.get_key_value(name));
+        wanted.extend(member.map(|(name, value)| Wanted {
+            name: Some(name),
+            value,
+            old: Some(place),
+        }));
+    }
+    let mut before = None;
+    for (name, value) in members {
+        if !wanted.iter().any(|wanted| wanted.name == Some(name)) {
+            let behind = wanted.iter().position(|wanted| wanted.name == before);
+            let at = behind.map_or(0, |place| place + 1);
+            wanted.insert(at, Wanted { name: Some(name), value, old: None });
+        }
+        before = Some(name);
+    }
+    wanted
+}
+
+/// A text that is put together.
+struct Pieces<'t> {
+    text: String,
+    /// It ends in a remark that only the end of the line closes.
+    is_remark_open: bool,
+    newline: &'t str,
+    indent: &'t str,
+}
+
+impl Pieces<'_> {
+    /// Brackets, blanks and remarks.
+    fn push_blank(&mut self, piece: &str) {
+        let begins_line = piece.trim_start_matches([' ', '\t']).starts_with(['\n', '\r']);
+        if begins_line {
+            self.is_remark_open = false;
+        }
+        self.push(&[piece]);
+        let last_line = piece.rsplit('\n').next().unwrap_or(piece);
+        self.is_remark_open |= last_line.contains("//");
+    }
+
+    fn push(&mut self, pieces: &[&str]) {
+        if self.is_remark_open && pieces.iter().any(|piece| !piece.is_empty()) {
+            self.text += self.newline;
+            self.text += self.indent;
+            self.is_remark_open = false;
+        }
+        self.text.extend(pieces.iter().copied());
+    }
+}
+
+/// `None` for what is no JSON.
+fn says(text: &str) -> Option<Value> {
+    parse_to_serde_value(text, &SYNTAX).ok()
+}
+
+/// The same, in whichever way numbers are written.
+fn is_same(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Number(a), Value::Number(b)) => a.as_f64() == b.as_f64(),
+        (Value::Array(a), Value::Array(b)) => {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_same(a, b))
+        }
+        (Value::Object(a), Value::Object(b)) => {
+            let is_member = |(name, value)| b.get(name).is_some_and(|other| is_same(value, other));
+            a.len() == b.len() && a.iter().all(is_member)
+        }
+        _ => a == b,
+    }
+}
+
+fn has_remark(text: &str) -> bool {
+    let options = CollectOptions {
+        comments: CommentCollectionStrategy::Separate,
+        ..CollectOptions::default()
+    };
+    let parsed = parse_to_ast(text, &options, &SYNTAX);
+    parsed.is_ok_and(|parsed| parsed.comments.is_some_and(|comments| !comments.is_empty()))
+}
