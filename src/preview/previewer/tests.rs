@@ -1,6 +1,7 @@
 //! The previewer with its threads, on a small sheet that hangs from two corners.
 
-mod stage;
+mod full_length;
+pub mod stage;
 
 use std::fs;
 use std::time::{Duration, Instant};
