@@ -11,7 +11,7 @@ use super::panel;
 use super::preferences::Preferences;
 use super::viewport::Viewports;
 use super::{keys, pace::Pace};
-use crate::preview::{Action, Effect, EyeAndTarget, Level, Previewer, Source, Wake};
+use crate::preview::{Action, Effect, EyeAndTarget, Level, PanelName, Previewer, Source, Wake};
 use crate::render::{AdapterChoice, Gpu, RenderError, Renderer, UiPainter};
 
 /// Work done by other threads is shown this often while nothing else happens (s): more often would
@@ -224,7 +224,9 @@ impl Desk {
         }
     }
 
+    /// What was chosen in the files' panel is open: nothing is left to be done there.
     fn note_opened(&mut self, source: &Source) {
+        self.previewer.act(Action::SetPanel { panel: PanelName::Files, open: false });
         self.viewports.forget_place();
         let name = self.previewer.scenery().map_or_else(String::new, |s| s.name.clone());
         self.title = Some(format!("{name} - Shotsilk"));

@@ -13,7 +13,7 @@ use super::{Desk, theme};
 use crate::preview::Wake;
 use crate::render::{AdapterChoice, Canvas, Gpu, Renderer, Sheet, UiPainter, WINDOW_FORMAT};
 
-pub use player::{Player, Request};
+pub use player::{Player, Request, check_opened};
 
 /// Between two redraws nothing may happen for so long, unless a thread has something to say.
 const PASS_EVERY: Duration = Duration::from_millis(15);
@@ -30,7 +30,7 @@ pub struct Screen {
 /// Replays a script. `make_desk` gets what wakes the replay.
 ///
 /// # Errors
-/// If there is no adapter, or a step of the script fails.
+/// If there is no adapter, a step of the script fails, or the shot cannot be opened.
 pub fn run(
     adapter: &AdapterChoice,
     screen: Screen,
@@ -41,13 +41,13 @@ pub fn run(
     let mut desk = make_desk(wake);
     let mut stage = Stage::new(adapter, screen)?;
     let began = Instant::now();
-    while !player.is_done() && !desk.quits() {
+    while !player.is_done(&desk) && !desk.quits() {
         stage.pass(&mut desk, &mut player, began.elapsed().as_secs_f64())?;
         let _ = woken.recv_timeout(PASS_EVERY);
         while woken.try_recv().is_ok() {}
     }
     desk.close();
-    Ok(())
+    check_opened(&desk)
 }
 
 fn wake() -> (Wake, Receiver<()>) {

@@ -53,6 +53,9 @@ pub enum ScriptError {
     Read { path: PathBuf, source: std::io::Error },
     #[error("{0}")]
     Parse(String),
+    /// Nothing else was opened in its place.
+    #[error("{0}")]
+    NotOpened(String),
     #[error("step {step} of the script, {what}: {why}")]
     Failed { step: usize, what: String, why: String },
 }

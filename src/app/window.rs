@@ -9,7 +9,7 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Window, WindowId};
 
-use super::replay::{Player, Request};
+use super::replay::{Player, Request, check_opened};
 use super::{Desk, theme};
 use crate::preview::{Action, Wake};
 use crate::render::{
@@ -27,7 +27,7 @@ struct Woken;
 /// replays its script in the window, which it then closes.
 ///
 /// # Errors
-/// If there is no display, no adapter for it, or a script fails.
+/// If there is no display, no adapter for it, or a script fails or its shot cannot be opened.
 pub fn run(
     adapter: &AdapterChoice,
     make_desk: impl FnOnce(Wake) -> Desk,
@@ -52,7 +52,11 @@ pub fn run(
     theme::dress(&program.context);
     event_loop.run_app(&mut program).context("the window failed")?;
     program.desk.close();
-    program.failure.map_or(Ok(()), Err)
+    match (program.failure, program.player) {
+        (Some(failure), _) => Err(failure),
+        (None, Some(_)) => check_opened(&program.desk),
+        (None, None) => Ok(()),
+    }
 }
 
 fn wake(proxy: EventLoopProxy<Woken>) -> Wake {
@@ -262,7 +266,8 @@ impl Program {
             shown.window.set_title(&title);
         }
         self.plan_redraw(now, next, delay, presented);
-        if self.desk.quits() || self.player.as_ref().is_some_and(Player::is_done) {
+        let is_played = self.player.as_ref().is_some_and(|player| player.is_done(&self.desk));
+        if self.desk.quits() || is_played {
             event_loop.exit();
         }
         Ok(())

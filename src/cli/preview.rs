@@ -9,9 +9,9 @@ use super::args::ShotArgs;
 use super::failure::Failure;
 use super::shot::set_yielding_threads;
 use crate::app::replay::{self, Player, Screen};
-use crate::app::{Desk, Preferences, cache_folder, script_from_text, window};
+use crate::app::{Desk, Preferences, ScriptError, cache_folder, script_from_text, window};
 use crate::preview::{Previewer, Source, Start, Wake};
-use crate::render::AdapterChoice;
+use crate::render::{AdapterChoice, RenderError};
 
 #[derive(Args, Debug)]
 pub struct PreviewArgs {
@@ -66,10 +66,19 @@ pub fn run(args: &PreviewArgs) -> Result<()> {
         }
         (player, _) => window::run(&args.adapter, make_desk, player),
     };
-    shown.map_err(|error| match error.downcast::<crate::render::RenderError>() {
-        Ok(error) => Failure::from(error).into(),
+    shown.map_err(with_exit_code)
+}
+
+fn with_exit_code(error: anyhow::Error) -> anyhow::Error {
+    let error = match error.downcast::<RenderError>() {
+        Ok(error) => return Failure::from(error).into(),
         Err(error) => error,
-    })
+    };
+    match error.downcast::<ScriptError>() {
+        Ok(ScriptError::NotOpened(why)) => Failure::BadInput(why).into(),
+        Ok(error) => error.into(),
+        Err(error) => error,
+    }
 }
 
 fn source(args: &PreviewArgs) -> Result<Source> {

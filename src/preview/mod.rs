@@ -37,6 +37,8 @@ pub use navigate::{EyeAndTarget, ImagePlane};
 pub use parameters::{Off, Parameter, ParameterKind, Scale, default_value, parameters, value};
 pub use plan::{Anchor, Plan};
 pub use planner::{Opened, Planner, Source};
+#[cfg(test)]
+pub use previewer::tests::stage;
 pub use previewer::{Effect, Previewer, Shown, Start};
 pub use reader::FrameReader;
 pub use save::{SaveError, rebased, saved_text, seen_from, wrapped_text};

@@ -87,6 +87,24 @@ fn a_shot_that_cannot_be_read_is_said_in_the_window_and_leaves_it_usable() {
 }
 
 #[test]
+fn a_script_whose_shot_cannot_be_read_ends_as_with_bad_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = folder.path().join("no/shot.json");
+    let scripts = [
+        json!([]),
+        json!([{"act": "play"}]),
+        json!([{"wait-for-frames": {"first": 0, "last": 1}}]),
+        json!([{"wait": {"seconds": 0.2}}, {"act": "quit"}]),
+    ];
+    for script in scripts {
+        let output = preview(folder.path(), &script).arg(&missing).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{script}: {said}");
+        assert!(said.contains("cannot read") && said.contains("no/shot.json"), "{said}");
+    }
+}
+
+#[test]
 fn without_an_adapter_or_a_display_it_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let script = json!([]);

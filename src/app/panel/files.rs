@@ -7,7 +7,7 @@ use egui::{RichText, ScrollArea, TextEdit, Ui};
 
 use super::Context;
 use crate::app::theme;
-use crate::preview::{Action, PanelName, Source};
+use crate::preview::{Action, Level, PanelName, Source};
 use crate::run::RunReader;
 
 /// See the module.
@@ -43,42 +43,23 @@ impl Default for FilesPanel {
 impl FilesPanel {
     pub fn show(&mut self, ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
         let mut open = true;
-        let mut done = false;
         egui::Window::new("Files")
             .constrain_to(ui.max_rect())
             .open(&mut open)
             .default_width(520.0)
             .show(ui.ctx(), |ui| {
-                done |= self.recent(ui, context, actions);
-                done |= self.typed(ui, context, actions);
-                done |= self.folder(ui, actions);
+                recent(ui, context, actions);
+                self.typed(ui, context, actions);
+                self.folder(ui, actions);
             });
-        if !open || done {
+        if !open {
             self.entries = None;
             actions.push(Action::SetPanel { panel: PanelName::Files, open: false });
         }
     }
 
-    fn recent(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) -> bool {
-        let mut done = false;
-        ui.horizontal_wrapped(|ui| {
-            if ui.button("The program's own shot").clicked() {
-                actions.push(Action::OpenOwn);
-                done = true;
-            }
-            for path in &context.preferences.recent {
-                let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-                if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
-                    actions.push(Action::Open { path: path.clone() });
-                    done = true;
-                }
-            }
-        });
-        done
-    }
-
-    fn typed(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) -> bool {
-        let mut done = false;
+    /// The path, what can be done with it, and why it could not be done.
+    fn typed(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
         let field =
             TextEdit::singleline(&mut self.path).hint_text("path").desired_width(f32::INFINITY);
         let response = ui.add(field);
@@ -92,27 +73,28 @@ impl FilesPanel {
                     self.enter(&path);
                 } else {
                     actions.push(Action::Open { path: path.clone() });
-                    done = true;
                 }
             }
             let is_shot = matches!(context.previewer.source(), Source::Shot(_));
             let save = ui.add_enabled(is_typed && is_shot, egui::Button::new("Save as"));
             if save.on_hover_text("the shot with its changed settings, under this name").clicked() {
                 actions.push(Action::SaveAs { path });
-                done = true;
             }
         });
-        done
+        if context.previewer.is_opening() {
+            ui.label("reading ...");
+        } else if let Some(why) = context.previewer.opening_failure() {
+            ui.colored_label(theme::level_colour(Level::Error), why);
+        }
     }
 
-    fn folder(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) -> bool {
+    fn folder(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
         ui.separator();
         ui.label(RichText::new(self.folder.display().to_string()).small().color(theme::FAINT));
         let mut next = None;
         if ui.button("..").on_hover_text("the folder above").clicked() {
             next = self.folder.parent().map(Path::to_owned);
         }
-        let mut done = false;
         let entries = self.entries.get_or_insert_with(|| entries(&self.folder));
         match entries {
             Err(why) => drop(ui.colored_label(theme::FAINT, why.as_str())),
@@ -130,8 +112,8 @@ impl FilesPanel {
                         if entry.kind == Kind::Folder {
                             next = Some(entry.path.clone());
                         } else {
+                            self.path = entry.name.clone();
                             actions.push(Action::Open { path: entry.path.clone() });
-                            done = true;
                         }
                     }
                 });
@@ -140,7 +122,6 @@ impl FilesPanel {
         if let Some(folder) = next {
             self.enter(&folder);
         }
-        done
     }
 
     fn enter(&mut self, folder: &Path) {
@@ -148,6 +129,21 @@ impl FilesPanel {
         self.path.clear();
         self.entries = None;
     }
+}
+
+/// The program's own shot, and what was open before.
+fn recent(ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("The program's own shot").clicked() {
+            actions.push(Action::OpenOwn);
+        }
+        for path in &context.preferences.recent {
+            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+            if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+                actions.push(Action::Open { path: path.clone() });
+            }
+        }
+    });
 }
 
 fn is_plain_folder(path: &Path) -> bool {

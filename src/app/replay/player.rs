@@ -41,8 +41,9 @@ impl Player {
         Self { steps: steps.into(), step: 1, since: None, settled: 0, inputs: VecDeque::new() }
     }
 
-    pub fn is_done(&self) -> bool {
-        self.steps.is_empty() && self.inputs.is_empty()
+    /// Whether nothing is left to be done or to be waited for.
+    pub fn is_done(&self, desk: &Desk) -> bool {
+        self.steps.is_empty() && self.inputs.is_empty() && !desk.previewer().is_opening()
     }
 
     /// How long it can be before the script looks again (s): what waits for the simulation must not take
@@ -69,7 +70,10 @@ impl Player {
         let began = *self.since.get_or_insert(now);
         let Some(step) = self.steps.front().cloned() else { return Ok(Request::Nothing) };
         let outcome = self.carry_out(&step, desk, now - began);
-        let (is_done, request) = outcome.map_err(|why| self.failed(&step, format!("{why:#}")))?;
+        let (is_done, request) = outcome.map_err(|why| match why.downcast::<ScriptError>() {
+            Ok(error) => error.into(),
+            Err(why) => self.failed(&step, format!("{why:#}")),
+        })?;
         if is_done {
             self.steps.pop_front();
             self.step += 1;
@@ -204,8 +208,20 @@ fn button(pos: egui::Pos2, button: PointerButton, pressed: bool) -> Event {
     Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE }
 }
 
+/// A script is for a shot: one that cannot be read, and no other in its place, is bad input.
+///
+/// # Errors
+/// In the words of whoever read it.
+pub fn check_opened(desk: &Desk) -> Result<()> {
+    match desk.previewer().opening_failure() {
+        Some(why) => Err(ScriptError::NotOpened(why.to_owned()).into()),
+        None => Ok(()),
+    }
+}
+
 /// What has gone wrong will not get better by waiting.
 fn check_going(desk: &Desk) -> Result<()> {
+    check_opened(desk)?;
     let failure = desk.previewer().state().messages.iter().find(|m| m.level == Level::Error);
     match failure {
         Some(message) => bail!("{}", message.text),

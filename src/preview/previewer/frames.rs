@@ -65,6 +65,9 @@ impl Previewer {
             Err(why) => {
                 self.state.history.forget(&self.proved);
                 self.state.version = self.proved.clone();
+                if awaited.occasion == Occasion::Opening {
+                    self.opening_failure = Some(why.clone());
+                }
                 self.state.say(Level::Error, why);
                 self.pursue();
             }
@@ -77,6 +80,7 @@ impl Previewer {
         let is_renamed = is_new || self.source != awaited.source;
         self.source = awaited.source;
         self.proved = self.state.version.clone();
+        self.opening_failure = None;
         self.changed_files.clear();
         if !std::mem::take(&mut self.ignored_files).is_empty() && !is_new {
             let text = "files that had changed on disk were read again with this change";

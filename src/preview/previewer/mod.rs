@@ -73,6 +73,8 @@ pub struct Previewer {
     planner: Planner,
     /// The plan that is awaited, and for what.
     awaited: Option<Awaited>,
+    /// Why what was to be opened last could not be.
+    opening_failure: Option<String>,
     /// The version of the plan that is in force: what is returned to if another cannot be.
     proved: Version,
     /// What has to wait for a plan, and where the user was when asking for it.
@@ -152,6 +154,7 @@ impl Previewer {
             store: FrameStore::new(start.memory),
             planner: Planner::start(outbox.clone()),
             awaited: None,
+            opening_failure: None,
             proved: Version::default(),
             deferred: VecDeque::new(),
             engine: Engine::start("simulation", outbox.clone()),
@@ -339,6 +342,11 @@ impl Previewer {
         self.awaited.is_some()
     }
 
+    /// Why what was to be opened last could not be; `None` if it is open, or still being opened.
+    pub fn opening_failure(&self) -> Option<&str> {
+        self.opening_failure.as_deref()
+    }
+
     /// Whether frames are being read.
     pub fn is_loading(&self) -> bool {
         !self.loading.is_empty()
@@ -386,4 +394,4 @@ impl Previewer {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -106,6 +106,7 @@ impl Previewer {
     /// Opens something else, with no edits yet.
     pub(super) fn open_with(&mut self, source: Source) {
         self.state.version = Version::default();
+        self.opening_failure = None;
         self.ask(source, Occasion::Opening);
     }
 
