@@ -103,6 +103,7 @@ impl Desk {
             exports: &self.exports,
             preferences: &self.preferences,
             pace: &self.pace,
+            room: panel::Room::of(ui),
             colour_by: self
                 .previewer
                 .scenery()

@@ -79,6 +79,8 @@ struct Picture<'a> {
 
 /// See the module.
 pub struct Viewports {
+    /// Where they were laid out last (points).
+    pub space: Rect,
     /// Shot and witness of B, then of A.
     panes: [Pane; 4],
     trail: Option<(Arc<CameraPath>, CameraTrail)>,
@@ -133,6 +135,7 @@ impl Viewports {
     /// `wake` is called when something was found that takes its time.
     pub fn new(wake: Wake) -> Self {
         Self {
+            space: Rect::ZERO,
             panes: Default::default(),
             trail: None,
             found_witness: None,
@@ -158,6 +161,7 @@ impl Viewports {
     /// Lays the panes out over the rest of the space.
     pub fn show(&mut self, ui: &mut Ui, previewer: &Previewer, actions: &mut Vec<Action>) {
         let space = ui.available_rect_before_wrap();
+        self.space = space;
         ui.painter().rect_filled(space, 0.0, theme::WELL);
         self.panes.iter_mut().for_each(|pane| pane.wanted = None);
         let Some(scenery) = previewer.scenery().cloned() else {

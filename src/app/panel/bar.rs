@@ -1,7 +1,7 @@
 //! The bar on top: files, views, colours, the simulation, undo, comparison.
 
 use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Button, DragValue, PopupCloseBehavior, RichText, Ui};
+use egui::{Button, DragValue, PopupCloseBehavior, RichText, Ui, vec2};
 
 use super::Context;
 use crate::app::theme;
@@ -11,17 +11,46 @@ use crate::preview::{Action, ColourMode, FrameStatus, Layout, Overlay, PanelName
 pub fn show(ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
     let mut wish = |action| actions.push(action);
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = 6.0;
-        files(ui, context, &mut wish);
-        ui.separator();
-        views(ui, context, &mut wish);
-        ui.separator();
-        simulation(ui, context, &mut wish);
-        ui.separator();
-        versions(ui, context, &mut wish);
+        ui.spacing_mut().item_spacing.x = 5.0;
+        match context.room.is_narrow() {
+            true => menus(ui, context, &mut wish),
+            false => groups(ui, context, &mut wish),
+        }
         ui.separator();
         panels(ui, context, &mut wish);
+        badge(ui, context);
     });
+}
+
+fn groups(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
+    files(ui, context, wish);
+    ui.separator();
+    layouts(ui, context, wish);
+    colours(ui, context, wish);
+    lasting_menu("Show").ui(ui, |ui| overlays(ui, context, wish));
+    ui.separator();
+    simulation(ui, context, wish);
+    ui.separator();
+    versions(ui, context, wish);
+}
+
+/// The same where there is no room for it on one line.
+fn menus(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
+    MenuButton::new("File").ui(ui, |ui| files(ui, context, wish));
+    lasting_menu("Show").ui(ui, |ui| {
+        layouts(ui, context, wish);
+        ui.separator();
+        overlays(ui, context, wish);
+    });
+    colours(ui, context, wish);
+    MenuButton::new("Run").ui(ui, |ui| simulation(ui, context, wish));
+    MenuButton::new("Edit").ui(ui, |ui| versions(ui, context, wish));
+}
+
+/// A menu in which several things can be switched.
+fn lasting_menu(name: &'static str) -> MenuButton<'static> {
+    let stays = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    MenuButton::new(name).config(stays)
 }
 
 fn files(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
@@ -40,7 +69,7 @@ fn files(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
     }
 }
 
-fn views(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
+fn layouts(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
     let look = context.previewer.state().look;
     for (layout, name, hint) in [
         (Layout::Both, "Both", "shot camera and witness (1)"),
@@ -51,31 +80,38 @@ fn views(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
             wish(Action::SetLayout { layout });
         }
     }
-    egui::ComboBox::from_id_salt("colour").selected_text(look.colour.label()).show_ui(ui, |ui| {
+}
+
+fn colours(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
+    let now = context.previewer.state().look.colour;
+    let chosen = egui::ComboBox::from_id_salt("colour").selected_text(now.label());
+    let list = chosen.show_ui(ui, |ui| {
         for colour in ColourMode::ALL {
-            if ui.selectable_label(look.colour == colour, colour.label()).clicked() {
+            if ui.selectable_label(now == colour, colour.label()).clicked() {
                 wish(Action::SetColour { colour });
             }
         }
     });
-    let stays = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    MenuButton::new("Show").config(stays).ui(ui, |ui| {
-        for (overlay, on, name) in [
-            (Overlay::Wireframe, look.wireframe, "wireframe"),
-            (Overlay::Legend, look.legend, "legend"),
-            (Overlay::Intersections, look.intersections, "intersections"),
-            (Overlay::SafeAreas, look.safe_areas, "safe areas"),
-            (Overlay::Ghost, look.ghost, "frustum at the end of the look-ahead"),
-            (Overlay::Ground, look.ground, "ground"),
-        ] {
-            let mut now = on;
-            if ui.checkbox(&mut now, name).changed() {
-                wish(Action::SetOverlay { overlay, on: now });
-            }
+    list.response.on_hover_text("what the colour of the cloth shows (V)");
+}
+
+fn overlays(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
+    let look = context.previewer.state().look;
+    for (overlay, on, name) in [
+        (Overlay::Wireframe, look.wireframe, "wireframe"),
+        (Overlay::Legend, look.legend, "legend"),
+        (Overlay::Intersections, look.intersections, "intersections"),
+        (Overlay::SafeAreas, look.safe_areas, "safe areas"),
+        (Overlay::Ghost, look.ghost, "frustum at the end of the look-ahead"),
+        (Overlay::Ground, look.ground, "ground"),
+    ] {
+        let mut now = on;
+        if ui.checkbox(&mut now, name).changed() {
+            wish(Action::SetOverlay { overlay, on: now });
         }
-        ui.separator();
-        preferences(ui, context, wish);
-    });
+    }
+    ui.separator();
+    preferences(ui, context, wish);
 }
 
 /// Size of text and controls, and memory for frames.
@@ -116,26 +152,27 @@ fn simulation(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action))
     }
     let reach = previewer.state().reach;
     let (name, other) = match reach {
-        Reach::FromHere => ("changes from here", Reach::FromStart),
-        Reach::FromStart => ("changes from the start", Reach::FromHere),
+        Reach::FromHere => ("from here", Reach::FromStart),
+        Reach::FromStart => ("from the start", Reach::FromHere),
     };
     let hint = "whether a changed setting holds from the current frame on or from the start; camera \
                 edits always reach just the frames that can see them";
-    if ui.button(name).on_hover_text(hint).clicked() {
+    /// As wide as the longer of its two names (points): what is beside it stays where it is.
+    const REACH_WIDTH: f32 = 100.0;
+    let button = Button::new(name).min_size(vec2(REACH_WIDTH, 0.0));
+    if ui.add(button).on_hover_text(hint).clicked() {
         wish(Action::SetReach { reach: other });
     }
-    badge(ui, context);
 }
 
-/// Whether what is there is what a clean run gives.
+/// Whether what is there is what a clean run gives. Its place is kept free for it.
 fn badge(ui: &mut Ui, context: &Context<'_>) {
     let timeline = context.previewer.timeline();
     let has = |wanted| (0..timeline.len() as u32).any(|frame| timeline.status(frame) == wanted);
-    if has(FrameStatus::Mixed) || has(FrameStatus::Stale) {
-        let badge = RichText::new("MIXED").color(theme::status_colour(FrameStatus::Mixed)).strong();
-        ui.label(badge)
-            .on_hover_text("frames were made with different settings: Re-run for a clean run");
-    }
+    let badge = RichText::new("MIXED").color(theme::status_colour(FrameStatus::Mixed)).strong();
+    let is_mixed = has(FrameStatus::Mixed) || has(FrameStatus::Stale);
+    ui.add_visible(is_mixed, egui::Label::new(badge))
+        .on_hover_text("frames were made with different settings: Re-run for a clean run");
 }
 
 fn versions(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
@@ -152,26 +189,35 @@ fn versions(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
     if ui.button("Keep as A").on_hover_text(hint).clicked() {
         wish(Action::KeepAsA);
     }
-    let Some(a) = &state.a else { return };
+    // Without an A they are there and cannot be used, so that nothing jumps when there is one.
+    let hint = match &state.a {
+        Some(a) => format!("A: settings {}", short(&a.settings_hash)),
+        None => "nothing is kept as A yet".to_owned(),
+    };
     let is_wiping = state.wipe.is_some();
-    let hint = format!("A: settings {}", short(&a.settings_hash));
-    if ui.selectable_label(is_wiping, "A | B").on_hover_text(hint).clicked() {
+    let compare = ui.add_enabled(state.a.is_some(), Button::selectable(is_wiping, "A | B"));
+    if compare.on_hover_text(&hint).on_disabled_hover_text(&hint).clicked() {
         wish(Action::Compare { wipe: (!is_wiping).then_some(0.5) });
     }
-    if ui.button("Swap").on_hover_text("A comes into force").clicked() {
+    let swap = ui.add_enabled(state.a.is_some(), Button::new("Swap"));
+    if swap.on_hover_text("A comes into force").on_disabled_hover_text(&hint).clicked() {
         wish(Action::SwapAAndB);
     }
 }
 
 fn panels(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
     let look = context.previewer.state().look;
-    for (panel, open, name) in [
-        (PanelName::Parameters, look.parameters_panel, "Settings"),
-        (PanelName::Costs, look.cost_panel, "Costs"),
-        (PanelName::Help, look.help_panel, "Help"),
+    for (panel, name) in [
+        (PanelName::Parameters, "Settings"),
+        (PanelName::Costs, "Costs"),
+        (PanelName::Help, "Help"),
     ] {
-        if ui.selectable_label(open, name).clicked() {
-            wish(Action::SetPanel { panel, open: !open });
+        let is_shown = context.room.shows(panel, &look);
+        if ui.selectable_label(is_shown, name).clicked() {
+            wish(Action::SetPanel { panel, open: !is_shown });
+            if let Some(other) = context.room.yields_to(panel).filter(|_| !is_shown) {
+                wish(Action::SetPanel { panel: other, open: false });
+            }
         }
     }
 }

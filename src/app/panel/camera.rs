@@ -64,7 +64,7 @@ impl CameraPanel {
         if ui.checkbox(&mut unlocked, "unlocked").on_hover_text(hint).changed() {
             actions.push(Action::UnlockCamera { on: unlocked });
         }
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let hint = "a key where the camera is now (K)";
             let name = if key.is_some() { "Set key" } else { "Add key" };
             if ui.button(name).on_hover_text(hint).clicked() {
@@ -107,15 +107,15 @@ impl CameraPanel {
             LensValue::FocalMm(focal) => ("focal length", focal, 4.0..=400.0, " mm"),
         };
         let mut now = self.dragged_lens.unwrap_or(value);
-        ui.horizontal(|ui| {
-            ui.label(name);
+        ui.horizontal_wrapped(|ui| {
+            let label = ui.label(name);
             let field = DragValue::new(&mut now)
                 .range(range)
                 .speed(0.1)
                 .suffix(suffix)
                 .max_decimals(1)
                 .update_while_editing(false);
-            let response = ui.add(field);
+            let response = ui.add(field).labelled_by(label.id);
             if response.dragged() && !response.drag_stopped() {
                 self.dragged_lens = Some(now);
             } else if response.drag_stopped() || response.changed() {

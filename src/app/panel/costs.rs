@@ -1,7 +1,7 @@
 //! What frames cost, live: faces and seconds over the timeline, as in the papers' figures of speed, with
 //! the stages stacked and, when asked for, what the same shot costs whoever looks.
 
-use egui::{Color32, Ui};
+use egui::{Color32, Label, Ui};
 use egui_plot::{Bar, BarChart, Legend, Line, Plot, PlotPoints, VLine};
 
 use super::Context;
@@ -140,7 +140,7 @@ fn summary(ui: &mut Ui, context: &Context<'_>) {
             both.len()
         );
     }
-    ui.label(words).on_hover_ui(|ui| {
+    ui.add(Label::new(words).truncate()).on_hover_ui(|ui| {
         let pace = context.pace.report();
         ui.label(format!(
             "wall seconds. Interface: {:.1} ms of its own a redraw, {:.0} ms from input to picture \

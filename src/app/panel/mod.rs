@@ -8,6 +8,7 @@ mod files;
 mod help;
 mod messages;
 mod parameters;
+mod room;
 mod timeline;
 
 use egui::Ui;
@@ -15,8 +16,10 @@ use egui::Ui;
 use super::exports::Exports;
 use super::pace::Pace;
 use super::preferences::Preferences;
-use crate::preview::{Action, Previewer};
+use crate::preview::{Action, PanelName, Previewer};
 use crate::render::ColourBy;
+
+pub use room::Room;
 
 /// What panels read.
 pub struct Context<'a> {
@@ -26,6 +29,7 @@ pub struct Context<'a> {
     pub pace: &'a Pace,
     /// What colours stand for; `None` while nothing is open.
     pub colour_by: Option<ColourBy>,
+    pub room: Room,
 }
 
 /// What panels remember of themselves: texts half typed, pages open.
@@ -42,21 +46,22 @@ impl Panels {
     /// The panels around the viewports.
     pub fn show(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
         let look = context.previewer.state().look;
+        let room = context.room;
         egui::Panel::top("bar").show(ui, |ui| bar::show(ui, context, actions));
         egui::Panel::bottom("timeline")
             .exact_size(timeline::HEIGHT)
             .show(ui, |ui| timeline::show(ui, context, actions));
-        if look.cost_panel {
+        if room.shows(PanelName::Costs, &look) {
             egui::Panel::bottom("costs")
-                .default_size(150.0)
-                .size_range(90.0..=420.0)
+                .default_size(130.0)
+                .size_range(room.costs_heights())
                 .resizable(true)
                 .show(ui, |ui| self.costs.show(ui, context, actions));
         }
-        if look.parameters_panel {
+        if room.shows(PanelName::Parameters, &look) {
             egui::Panel::right("parameters")
                 .default_size(300.0)
-                .size_range(220.0..=520.0)
+                .size_range(room.parameters_widths())
                 .resizable(true)
                 .show(ui, |ui| {
                     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {

@@ -236,7 +236,11 @@ fn transport(ui: &mut Ui, context: &Context<'_>, scenery: &Scenery, actions: &mu
         ("K>", "camera key after (Down)", go(Direction::Forward)),
         (">|", "end of the range (End)", Action::GoToEnd),
     ] {
-        if ui.button(name).on_hover_text(hint).clicked() {
+        /// As wide as the longest name: what is beside it stays where it is (points).
+        const WIDTH: f32 = 44.0;
+        let width = if name == play { WIDTH } else { 0.0 };
+        let button = egui::Button::new(name).min_size(vec2(width, 0.0));
+        if ui.add(button).on_hover_text(hint).clicked() {
             actions.push(action);
         }
     }
@@ -260,7 +264,13 @@ fn transport(ui: &mut Ui, context: &Context<'_>, scenery: &Scenery, actions: &mu
     progress(ui, context, scenery);
 }
 
+/// Where there is room for it.
 fn legend(ui: &mut Ui) {
+    /// With what is being done beside it (points).
+    const WIDTH: f32 = 420.0;
+    if ui.available_width() < WIDTH {
+        return;
+    }
     ui.separator();
     for (status, name) in [
         (FrameStatus::Ready, "clean"),
