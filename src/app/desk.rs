@@ -152,6 +152,12 @@ impl Desk {
         &self.previewer
     }
 
+    /// Where the views were laid out last (points).
+    #[cfg(test)]
+    pub fn views(&self) -> egui::Rect {
+        self.viewports.space
+    }
+
     /// What of the threads' doings is seen at once: while this stays the same, a redraw can wait.
     pub fn seen(&self) -> impl PartialEq + use<> {
         let previewer = &self.previewer;

@@ -22,3 +22,6 @@ pub use desk::Desk;
 pub use pace::{Pace, PaceReport};
 pub use preferences::{Preferences, cache_folder};
 pub use script::{ScriptError, ScriptStep, script_from_text};
+
+#[cfg(test)]
+mod tests;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{CollapsingHeader, DragValue, RichText, Slider, Ui};
+use egui::{CollapsingHeader, DragValue, Id, RichText, Slider, Ui};
 use serde_json::{Value, json};
 
 use super::Context;
@@ -82,19 +82,21 @@ fn row(
     let held = dragged.as_ref().filter(|(path, _)| *path == parameter.path);
     let mut now = held.map_or_else(|| in_force.clone(), |(_, value)| value.clone());
     let is_edited = edits.get(&parameter.path).is_some();
-    ui.horizontal(|ui| {
+    let label = ui.horizontal(|ui| {
         let mut label = RichText::new(parameter.label);
         if is_edited {
             label = label.color(theme::ACCENT);
         }
-        ui.label(label).on_hover_text(hint(parameter));
+        let label = ui.label(label).on_hover_text(hint(parameter));
         if is_edited
             && ui.small_button("reset").on_hover_text("back to what the file says").clicked()
         {
             actions.push(Action::Reset { path: parameter.path.clone() });
         }
+        label.id
     });
-    let change = ui.push_id(&parameter.path, |ui| control(ui, parameter, &mut now)).inner;
+    let change =
+        ui.push_id(&parameter.path, |ui| control(ui, parameter, label.inner, &mut now)).inner;
     match change {
         Change::None => {}
         Change::Going => *dragged = Some((parameter.path.clone(), now)),
@@ -135,7 +137,8 @@ enum Change {
     Done,
 }
 
-fn control(ui: &mut Ui, parameter: &Parameter, now: &mut Value) -> Change {
+/// `label` is what names it.
+fn control(ui: &mut Ui, parameter: &Parameter, label: Id, now: &mut Value) -> Change {
     match parameter.kind {
         ParameterKind::Number { min, max, scale, decimals, off } => {
             let mut change = Change::None;
@@ -145,6 +148,7 @@ fn control(ui: &mut Ui, parameter: &Parameter, now: &mut Value) -> Change {
                     if ui
                         .checkbox(&mut on, "")
                         .on_hover_text("off: the criterion asks for nothing")
+                        .labelled_by(label)
                         .changed()
                     {
                         let usual = parameter.default.clone().filter(|d| !d.is_null());
@@ -163,10 +167,13 @@ fn control(ui: &mut Ui, parameter: &Parameter, now: &mut Value) -> Change {
                     .max_decimals(decimals)
                     .update_while_editing(false)
                     .suffix(suffix(parameter.unit));
-                let response = ui.add(slider);
-                change = change_of(&response);
+                let response = ui.add(slider).labelled_by(label);
                 if response.changed() {
                     *now = json!(rounded(number, decimals));
+                }
+                // The criterion may just have been switched on.
+                if change == Change::None {
+                    change = change_of(&response);
                 }
             });
             change
@@ -176,14 +183,14 @@ fn control(ui: &mut Ui, parameter: &Parameter, now: &mut Value) -> Change {
             let slider = Slider::new(&mut number, min..=max)
                 .update_while_editing(false)
                 .suffix(suffix(parameter.unit));
-            let response = ui.add(slider);
+            let response = ui.add(slider).labelled_by(label);
             if response.changed() {
                 *now = json!(number);
             }
             change_of(&response)
         }
         ParameterKind::Vector3 { min, max, decimals } => {
-            vector(ui, parameter, now, [min, max], decimals)
+            vector(ui, parameter, label, now, [min, max], decimals)
         }
     }
 }
@@ -191,6 +198,7 @@ fn control(ui: &mut Ui, parameter: &Parameter, now: &mut Value) -> Change {
 fn vector(
     ui: &mut Ui,
     parameter: &Parameter,
+    label: Id,
     now: &mut Value,
     [min, max]: [f64; 2],
     decimals: usize,
@@ -198,7 +206,7 @@ fn vector(
     let numbers = now.as_array().map(|n| n.iter().filter_map(Value::as_f64).collect::<Vec<_>>());
     let Some(mut numbers) = numbers.filter(|n| n.len() == 3) else { return Change::None };
     let mut change = Change::None;
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         for (axis, number) in ["x ", "y ", "z "].into_iter().zip(&mut numbers) {
             let field = DragValue::new(number)
                 .speed((max - min) * 0.005)
@@ -206,7 +214,7 @@ fn vector(
                 .update_while_editing(false)
                 .suffix(suffix(parameter.unit))
                 .max_decimals(decimals);
-            let response = ui.add(field);
+            let response = ui.add(field).labelled_by(label);
             let this = change_of(&response);
             if this != Change::None {
                 change = this;

@@ -19,7 +19,7 @@ use stage::{LAST, SHOT, Stage, bits, straight, windy};
 #[test]
 fn a_moved_camera_key_has_only_the_frames_computed_again_that_can_see_it_with_the_bits_of_a_fresh_run()
  {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
     assert_eq!(p.0.simulated(), u64::from(LAST) + 1);
@@ -48,7 +48,7 @@ fn a_moved_camera_key_has_only_the_frames_computed_again_that_can_see_it_with_th
 
 #[test]
 fn a_setting_changed_here_leaves_what_was_before_and_marks_what_comes_as_mixed() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
     let before = bits(&p.frame(LAST));
@@ -77,7 +77,7 @@ fn a_setting_changed_here_leaves_what_was_before_and_marks_what_comes_as_mixed()
 
 #[test]
 fn undo_gives_the_frames_before_the_anchor_back_as_well() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
     let first = bits(&p.frame(3));
@@ -101,7 +101,7 @@ fn undo_gives_the_frames_before_the_anchor_back_as_well() {
 
 #[test]
 fn keys_set_faster_than_plans_are_made_are_all_set() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(false);
     p.until_opened();
     for frame in [2, 6, 10] {
@@ -115,7 +115,7 @@ fn keys_set_faster_than_plans_are_made_are_all_set() {
 
 #[test]
 fn a_failed_opening_leaves_the_edits_and_another_asks_before_they_are_lost() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(false);
     p.until_opened();
     p.act(windy(1.0));
@@ -134,7 +134,7 @@ fn a_failed_opening_leaves_the_edits_and_another_asks_before_they_are_lost() {
 
 #[test]
 fn without_a_disk_the_memory_budget_holds_and_the_simulation_halts() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.open_with(Source::Shot(stage.request()), true, None, 20_000);
     p.until("the halt", |p| !p.state.simulating);
     assert!(p.0.state.messages.last().unwrap().text.contains("do not fit"));
@@ -143,7 +143,7 @@ fn without_a_disk_the_memory_budget_holds_and_the_simulation_halts() {
 
 #[test]
 fn a_setting_changed_from_the_start_makes_everything_anew() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
     p.act(Action::SetReach { reach: Reach::FromStart });
@@ -155,7 +155,7 @@ fn a_setting_changed_from_the_start_makes_everything_anew() {
 
 #[test]
 fn frames_survive_a_restart_and_are_not_computed_again() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
     let last = bits(&p.frame(LAST));
@@ -171,7 +171,7 @@ fn frames_survive_a_restart_and_are_not_computed_again() {
 
 #[test]
 fn memory_for_two_frames_is_enough_to_scrub_all() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
     p.until("all on disk", |p| {
@@ -188,7 +188,7 @@ fn memory_for_two_frames_is_enough_to_scrub_all() {
 
 #[test]
 fn a_bad_value_is_said_and_changes_nothing() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(false);
     p.until_opened();
     p.act(Action::Set { path: "view.nu_out".into(), value: json!(-1.0) });
@@ -200,7 +200,7 @@ fn a_bad_value_is_said_and_changes_nothing() {
 
 #[test]
 fn a_file_that_is_no_shot_leaves_what_is_open() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
     let keys = p.0.timeline.keys();
@@ -213,7 +213,7 @@ fn a_file_that_is_no_shot_leaves_what_is_open() {
 
 #[test]
 fn a_finished_run_can_be_scrubbed_and_not_changed() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let requested = stage.request().load().unwrap();
     let folder = stage.folder.path().join("run");
     let mut writer =
@@ -235,7 +235,7 @@ fn a_finished_run_can_be_scrubbed_and_not_changed() {
 
 #[test]
 fn a_saved_shot_keeps_its_comments_and_its_frames() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
     p.act(Action::SetReach { reach: Reach::FromStart });
@@ -252,7 +252,7 @@ fn a_saved_shot_keeps_its_comments_and_its_frames() {
 
 #[test]
 fn a_shot_saved_elsewhere_finds_its_files() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(false);
     p.until_opened();
     p.act(windy(2.5));
@@ -268,7 +268,7 @@ fn a_shot_saved_elsewhere_finds_its_files() {
 
 #[test]
 fn the_programs_own_shot_is_saved_as_a_copy_with_its_files() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let own = Request { shot: None, ..stage.request() };
     let mut p = stage.open(Source::Shot(own), false);
     p.until_opened();
@@ -286,7 +286,7 @@ fn the_programs_own_shot_is_saved_as_a_copy_with_its_files() {
 
 #[test]
 fn a_changed_file_is_noticed_and_read_again_when_asked() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(false);
     p.until_opened();
     let hash = p.0.scenery().unwrap().settings_hash.clone();
@@ -302,7 +302,7 @@ fn a_changed_file_is_noticed_and_read_again_when_asked() {
 
 #[test]
 fn playing_keeps_the_rate_and_drops_frames_rather_than_time() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
     p.act(Action::GoTo { frame: 0 });
@@ -327,7 +327,7 @@ fn playing_keeps_the_rate_and_drops_frames_rather_than_time() {
 
 #[test]
 fn playing_waits_for_frames_that_are_not_there_yet() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until("some frames", |p| p.timeline.slot(4).is_some());
     p.act(Action::Simulate { on: false });
@@ -344,7 +344,7 @@ fn playing_waits_for_frames_that_are_not_there_yet() {
 
 #[test]
 fn a_and_b_are_shown_together_and_change_places() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
     let a = bits(&p.frame(10));
@@ -366,7 +366,7 @@ fn a_and_b_are_shown_together_and_change_places() {
 
 #[test]
 fn the_adaptive_run_counts_costs_and_keeps_no_frames() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
     let (used, simulated) = (p.0.store.used(), p.0.simulated());
@@ -379,7 +379,7 @@ fn the_adaptive_run_counts_costs_and_keeps_no_frames() {
 
 #[test]
 fn dropped_while_it_works_it_ends_at_once() {
-    let stage = Stage::new();
+    let stage = Stage::set();
     let mut p = stage.start(true);
     p.until("a frame", |p| p.timeline.slot(1).is_some());
     let began = Instant::now();

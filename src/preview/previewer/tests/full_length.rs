@@ -31,7 +31,7 @@ fn shot() -> String {
 #[test]
 fn a_key_moved_at_frame_100_of_150_has_nothing_computed_again_before_its_cut_and_gives_a_fresh_runs_bits()
  {
-    let stage = Stage::new();
+    let stage = Stage::set();
     fs::write(stage.shot(), shot()).unwrap();
     let frames = Some(FrameRange { first: 0, last: LAST });
     let mut p = stage.open(Source::Shot(Request { frames, ..stage.request() }), true);

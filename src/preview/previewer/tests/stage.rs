@@ -23,7 +23,7 @@ pub struct Stage {
 }
 
 impl Stage {
-    pub fn new() -> Self {
+    pub fn set() -> Self {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("sheet.obj"), sheet()).unwrap();
         fs::write(folder.path().join("shot.json"), SHOT).unwrap();

@@ -1,0 +1,10 @@
+//! The program as a user meets it, without pictures: panels are clicked and read by what they say.
+
+mod camera;
+mod costs;
+mod files;
+mod parameters;
+mod room;
+mod seat;
+mod timeline;
+mod words;

@@ -1,0 +1,44 @@
+//! The files' panel.
+
+use super::seat::Seat;
+use crate::preview::{Action, PanelName, Source};
+
+const FILES: PanelName = PanelName::Files;
+
+fn type_path(seat: &mut Seat, path: &str) {
+    seat.text().focus();
+    seat.settle();
+    seat.text().type_text(path);
+    seat.settle();
+}
+
+#[test]
+fn a_path_that_cannot_be_opened_stays_with_the_reason_beside_it() {
+    let mut seat = Seat::take();
+    seat.act(Action::SetPanel { panel: FILES, open: true });
+    let missing = seat.stage.folder.path().join("nothing.json").display().to_string();
+    type_path(&mut seat, &missing);
+    seat.press(egui::Key::Enter);
+    seat.until_refused();
+    assert_eq!(seat.text().value().as_deref(), Some(&*missing));
+    let why = seat.previewer().opening_failure().unwrap().to_owned();
+    // Beside the path, not only among the messages.
+    seat.act(Action::DismissMessage { index: 0 });
+    assert!(seat.previewer().state().messages.is_empty());
+    assert!(why.contains("nothing.json") && seat.says(&why), "{why}");
+    // What was open still is.
+    assert!(
+        matches!(seat.previewer().source(), Source::Shot(of) if of.shot == Some(seat.stage.shot()))
+    );
+}
+
+#[test]
+fn what_has_been_opened_closes_the_panel() {
+    let mut seat = Seat::take();
+    seat.act(Action::SetPanel { panel: FILES, open: true });
+    let path = seat.stage.shot().display().to_string();
+    type_path(&mut seat, &path);
+    seat.press(egui::Key::Enter);
+    seat.until("the shot again", |p| !p.is_opening() && !p.state().look.files_panel);
+    assert!(seat.previewer().opening_failure().is_none());
+}
