@@ -46,6 +46,7 @@ pub mod stability;
 
 pub mod resample;
 
+mod output;
 pub mod run;
 
 pub mod own_shot;
@@ -59,8 +60,6 @@ pub mod sheet;
 pub mod compare;
 
 pub mod chart;
-
-mod output;
 
 pub mod app;
 

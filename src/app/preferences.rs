@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::{Deserialize, Serialize};
 
+use crate::output::{PendingFile, folder_of};
 use crate::preview::{Look, MEMORY_BUDGET};
 
 /// Recent files listed.
@@ -62,15 +63,12 @@ impl Preferences {
     pub fn save(&self) -> Result<(), String> {
         let Some(file) = &self.file else { return Ok(()) };
         let text = serde_json::to_string_pretty(self).expect("preferences are plain data");
-        let write = || {
-            if let Some(folder) = file.parent() {
-                fs::create_dir_all(folder)?;
-            }
-            let partial = file.with_extension("json.part");
-            fs::write(&partial, text)?;
-            fs::rename(&partial, file)
+        let write = || -> anyhow::Result<()> {
+            fs::create_dir_all(folder_of(file))?;
+            PendingFile::create(file)?.write(text.as_bytes())
         };
-        write().map_err(|error| format!("cannot keep preferences in {:?}: {error}", file.display()))
+        write()
+            .map_err(|error| format!("cannot keep preferences in {:?}: {error:#}", file.display()))
     }
 
     /// The file or folder has been opened.

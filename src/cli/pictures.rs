@@ -9,8 +9,8 @@ use super::failure::Failure;
 use super::footage::Footage;
 use crate::preview::{EyeAndTarget, ImagePlane};
 use crate::render::{
-    AdapterChoice, Bounds, CameraTrail, ColourBy, CrossingMarks, Edges, Headless, LogRange,
-    PictureOptions, STRAIN_LIMIT, ShotCamera, WITNESS_FOV_Y, WitnessSubject, size_of_width,
+    AdapterChoice, Bounds, CameraTrail, ColourBy, CrossingMarks, Edges, Headless, PictureOptions,
+    STRAIN_LIMIT, SeenRanges, ShotCamera, WITNESS_FOV_Y, WitnessSubject, size_of_width,
     witness_view,
 };
 use crate::shot::{CameraPath, Lens, View};
@@ -63,9 +63,6 @@ pub enum EdgeColour {
     /// green
     Frame,
 }
-
-/// Shot views that decide where the witness stands: enough to know the path, few enough to be quick.
-const PATH_SAMPLES: usize = 24;
 
 /// Draws both views of the frames of a footage.
 pub struct Studio<'a> {
@@ -158,60 +155,36 @@ impl<'a> Studio<'a> {
 
 /// The cloth over all frames with the obstacles near it, and the shot camera's views.
 fn subject(footage: &Footage, camera: &CameraPath) -> Result<WitnessSubject> {
-    let mut subject = WitnessSubject { cloth: Bounds::EMPTY, views: Vec::new() };
-    let surfaces = footage.surfaces();
-    let stride = footage.frames().len().div_ceil(PATH_SAMPLES);
-    let mut last = None;
-    for (index, &number) in footage.frames().iter().enumerate() {
+    let (mut cloth, mut last) = (Bounds::EMPTY, None);
+    for &number in footage.frames() {
         let frame = footage.frame(number)?;
-        subject.cloth = subject.cloth.union(Bounds::of_cloth(&frame));
-        if index % stride == 0 {
-            subject.views.push(camera.view(f64::from(number)));
-        }
+        cloth = cloth.union(Bounds::of_cloth(&frame));
         last = Some(frame);
     }
-    if let Some(frame) = last {
-        for (index, (surface, &pose)) in surfaces.iter().zip(&frame.obstacle_poses).enumerate() {
-            subject = subject.with_obstacle(frame.points_of_obstacle(index, surface), pose);
-        }
-    }
-    Ok(subject)
+    let subject = WitnessSubject::of(cloth, Some(camera), footage.frames().iter().copied());
+    Ok(match last {
+        Some(frame) => subject.with_obstacles(&frame, &footage.surfaces()),
+        None => subject,
+    })
 }
 
 fn colour_by(colour: Colour, footage: &Footage) -> Result<ColourBy> {
     Ok(match colour {
         Colour::ViewFactor => ColourBy::view_factor(&footage.view_settings()),
-        Colour::EdgeSize => ColourBy::EdgeSize(edge_range(footage)?),
+        Colour::EdgeSize => seen_ranges(footage)?.edge_size(),
         Colour::Strain => ColourBy::Strain { limit: STRAIN_LIMIT },
-        Colour::Velocity => ColourBy::speed(fastest(footage)?),
+        Colour::Velocity => seen_ranges(footage)?.speed(),
         Colour::Plain => ColourBy::Plain,
     })
 }
 
-/// From the shortest to the longest mean edge length of a face over all frames.
-fn edge_range(footage: &Footage) -> Result<LogRange> {
-    let by = ColourBy::EdgeSize(LogRange { start: 1.0, end: 2.0 });
-    let (mut start, mut end) = (f64::INFINITY, 0.0f64);
+/// Over all frames.
+fn seen_ranges(footage: &Footage) -> Result<SeenRanges> {
+    let mut seen = SeenRanges::default();
     for &number in footage.frames() {
-        for mesh in &footage.frame(number)?.garments {
-            for length in mesh.face_ids().map(|f| by.value(mesh, f)) {
-                (start, end) = (start.min(length), end.max(length));
-            }
-        }
+        seen.see(&footage.frame(number)?);
     }
-    Ok(LogRange { start, end: end.max(start * 1.001) })
-}
-
-/// The speed of the fastest face over all frames (m/s).
-fn fastest(footage: &Footage) -> Result<f64> {
-    let by = ColourBy::Speed { limit: 1.0 };
-    let mut fastest = 0.0f64;
-    for &number in footage.frames() {
-        for mesh in &footage.frame(number)?.garments {
-            fastest = mesh.face_ids().map(|f| by.value(mesh, f)).fold(fastest, f64::max);
-        }
-    }
-    Ok(fastest)
+    Ok(seen)
 }
 
 fn placed_witness(place: EyeAndTarget, size: [u32; 2]) -> View {

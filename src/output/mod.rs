@@ -19,7 +19,7 @@ pub struct PendingFile {
 }
 
 impl PendingFile {
-    /// Creates the temporary file beside `path`: before the work starts, so that an output which
+    /// Creates the temporary file beside `path`, with the permissions of a file that is there: before the work starts, so that an output which
     /// cannot be written is known at once. Those that killed programs have left there go.
     ///
     /// # Errors
@@ -38,6 +38,9 @@ impl PendingFile {
             // Its text would name the temporary file.
             .map_err(|error| io::Error::from(error.kind()))
             .with_context(cannot)?;
+        if let Ok(about) = fs::metadata(path) {
+            file.as_file().set_permissions(about.permissions()).with_context(cannot)?;
+        }
         Ok(Self { file, path: path.to_owned() })
     }
 
@@ -105,8 +108,8 @@ impl PendingFile {
     }
 }
 
-/// Where a file is to be.
-fn folder_of(path: &Path) -> &Path {
+/// Where a file is, or is to be.
+pub fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
@@ -167,6 +170,19 @@ mod tests {
         PendingFile::create(&path).unwrap().write_png(&RgbaImage::new(2, 2)).unwrap();
         assert_eq!(folder.path().read_dir().unwrap().count(), 1);
         assert!(image::open(&path).is_ok());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_takes_the_place_of_a_file_is_as_open_as_that_was() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.json");
+        fs::write(&path, "old").unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
+        PendingFile::create(&path).unwrap().write(b"new").unwrap();
+        assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o640);
+        assert_eq!(fs::read_to_string(&path).unwrap(), "new");
     }
 
     #[test]

@@ -12,11 +12,13 @@
 //! up to [`GATE_DISTANCE_MAX`] radii away: what is in and out of frame is what the witness shows.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use crate::scene::Pose;
-use crate::shot::View;
+use crate::scene::{Pose, Surface};
+use crate::shot::{CameraPath, View};
+use crate::sim::Frame;
 
 use super::bounds::Bounds;
 use super::camera_glyph::gate_corners;
@@ -46,7 +48,32 @@ const MARGIN: f64 = 0.05;
 /// Radius of a subject without extent (m).
 const RADIUS_MIN: f64 = 0.05;
 
+/// Views that are enough to know a camera's way, and few enough to be quick.
+const VIEWS_MAX: usize = 24;
+
 impl WitnessSubject {
+    /// Cloth, and the shot camera, if there is one, over a range of frames.
+    pub fn of(
+        cloth: Bounds,
+        camera: Option<&CameraPath>,
+        frames: impl ExactSizeIterator<Item = u32>,
+    ) -> Self {
+        let stride = frames.len().div_ceil(VIEWS_MAX).max(1);
+        let view = |path: &CameraPath| {
+            frames.step_by(stride).map(|frame| path.view(f64::from(frame))).collect()
+        };
+        Self { cloth, views: camera.map_or(Vec::new(), view) }
+    }
+
+    /// Adds the parts of all obstacles of a frame that are near the cloth.
+    #[must_use]
+    pub fn with_obstacles(self, frame: &Frame, surfaces: &[Arc<Surface>]) -> Self {
+        let posed = surfaces.iter().zip(&frame.obstacle_poses).enumerate();
+        posed.fold(self, |subject, (number, (surface, &pose))| {
+            subject.with_obstacle(frame.points_of_obstacle(number, surface), pose)
+        })
+    }
+
     /// Adds the part of an obstacle that is near the cloth: a body shows where the cloth hangs,
     /// a floor of 20 m should not make it small.
     #[must_use]

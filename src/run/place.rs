@@ -166,23 +166,25 @@ impl Place {
     }
 }
 
-/// Writes a file under a temporary name and renames it. A power cut may still take what is in it: it
-/// has to be sealed, or not be missed.
-pub(super) fn write_whole(path: &Path, contents: &[u8]) -> Result<(), RunError> {
-    let partial = partial(path);
-    fs::write(&partial, contents)
-        .and_then(|()| fs::rename(&partial, path))
-        .map_err(RunError::io("write", path))
+/// Whether a file outlasts a power cut once it has its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lasting {
+    /// What is in it may be lost: it has to be sealed, or not be missed.
+    No,
+    /// Without it the others are of no use.
+    Yes,
 }
 
-/// The same for a file without which the others are of no use: it outlasts a power cut once it has
-/// its name.
-pub(super) fn write_whole_to_disk(path: &Path, contents: &[u8]) -> Result<(), RunError> {
+/// Writes a file under a temporary name and renames it. The name is known to those that go on with a run
+/// and remove what an interruption has left, so that this is no matter for [`crate::output`].
+pub(super) fn write_whole(path: &Path, contents: &[u8], lasting: Lasting) -> Result<(), RunError> {
     let partial = partial(path);
     let write = || -> std::io::Result<()> {
         let mut file = fs::File::create(&partial)?;
         file.write_all(contents)?;
-        file.sync_all()?;
+        if lasting == Lasting::Yes {
+            file.sync_all()?;
+        }
         fs::rename(&partial, path)
     };
     write().map_err(RunError::io("write", path))

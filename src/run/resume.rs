@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::lock::Lock;
-use super::place::{Place, write_whole};
+use super::place::{Lasting, Place, write_whole};
 use super::stats::{self, STATS_COLUMNS, StatsFile};
 use super::write::{make_folders, write_obstacles};
 use super::{RunError, RunInfo, RunReader, RunWriter, WriteOptions};
@@ -199,7 +199,7 @@ fn resumed_stats(run: &RunReader, place: &Place) -> Result<StatsFile, RunError> 
     }
     let text = lines.join("\n") + "\n";
     if std::fs::read(&path).ok().as_deref() != Some(text.as_bytes()) {
-        write_whole(&path, text.as_bytes())?;
+        write_whole(&path, text.as_bytes(), Lasting::No)?;
     }
     StatsFile::append_to(&path)
 }

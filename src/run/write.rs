@@ -8,7 +8,7 @@ use cpu_time::ProcessTime;
 
 use super::lock::Lock;
 use super::obj::{cloth_obj, obstacle_obj};
-use super::place::{Place, write_whole, write_whole_to_disk};
+use super::place::{Lasting, Place, write_whole};
 use super::sealed::{FRAME, Kind, OBSTACLES, seal};
 use super::state::{frame_bytes, obstacle_bytes};
 use super::stats::StatsFile;
@@ -53,7 +53,7 @@ impl RunWriter {
     ) -> Result<Self, RunError> {
         let place = Place { dir: dir.to_owned() };
         let lock = place.claim(options.overwrite)?;
-        write_whole_to_disk(&place.info(), &info.to_json())?;
+        write_whole(&place.info(), &info.to_json(), Lasting::Yes)?;
         make_folders(&place, options)?;
         write_obstacles(&place, obstacles)?;
         let stats = StatsFile::create(&place.stats())?;
@@ -82,7 +82,7 @@ impl RunWriter {
         if self.options.obj {
             for (index, garment) in frame.garments.iter().enumerate() {
                 let path = self.place.cloth_obj(shown, index);
-                write_whole(&path, cloth_obj(garment).as_bytes())?;
+                write_whole(&path, cloth_obj(garment).as_bytes(), Lasting::No)?;
             }
         }
         if self.options.obj_obstacles {
@@ -90,7 +90,7 @@ impl RunWriter {
             for (index, (surface, &pose)) in placed.enumerate() {
                 let path = self.place.obstacle_obj(shown, index);
                 let points = frame.points_of_obstacle(index, surface);
-                write_whole(&path, obstacle_obj(surface, points, pose).as_bytes())?;
+                write_whole(&path, obstacle_obj(surface, points, pose).as_bytes(), Lasting::No)?;
             }
         }
         Ok(())
@@ -123,5 +123,5 @@ pub(super) fn write_obstacles(place: &Place, obstacles: &[Arc<Surface>]) -> Resu
 /// The file appears under its name when it is whole.
 pub(super) fn write_sealed(path: &Path, kind: Kind, content: &[u8]) -> Result<(), RunError> {
     let file = seal(kind, content).map_err(RunError::io("compress", path))?;
-    write_whole(path, &file)
+    write_whole(path, &file, Lasting::No)
 }
