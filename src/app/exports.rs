@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use super::export::{
     BurnIn, ExportJob, ExportKind as Kind, ExportProgress, ExportRequest, ExportState, ExportView,
-    FFMPEG, FrameSupply, start,
+    FFMPEG, FrameSupply, in_the_way, start,
 };
 use crate::preview::{
-    Export, ExportKind, FrameKey, FrameReader, Level, Playback, Previewer, Scenery, Viewport, Wake,
+    Action, Export, ExportKind, FrameKey, FrameReader, Level, Playback, Previewer, Scenery,
+    Viewport, Wake,
 };
 use crate::render::{AdapterChoice, PictureOptions};
 use crate::run::RunInfo;
@@ -42,7 +43,7 @@ impl Exports {
         }
     }
 
-    /// Begins an export, or says why not.
+    /// Begins an export, or says why not, or has the user asked whether it may write over files.
     pub fn start(
         &mut self,
         export: Export,
@@ -56,6 +57,12 @@ impl Exports {
         }
         match self.request(&export, options, witness, previewer) {
             Ok((request, supply)) => {
+                let existing = in_the_way(&request, supply.info.first_frame);
+                if let Some(what) = existing.filter(|_| !export.overwrite) {
+                    let export = Export { overwrite: true, ..export };
+                    previewer.ask_before_overwriting(what, Action::Export { export });
+                    return;
+                }
                 let wake = self.wake.clone();
                 self.job = Some(start(request, Box::new(supply), self.adapter.clone(), wake));
             }
@@ -112,13 +119,12 @@ impl Exports {
             Viewport::Witness => ExportView::Witness(witness()?),
             Viewport::Both => ExportView::Both(witness()?),
         };
-        let camera = scenery.camera.as_ref().ok_or("the shot has no camera to export through")?;
         let supply = Supply {
             reader: previewer.frame_reader(),
             keys: previewer.timeline().keys(),
             hashes: hashes(previewer),
             scenery: scenery.clone(),
-            camera: (**camera).clone(),
+            camera: scenery.camera.as_deref().cloned(),
             info: previewer.run_info().ok_or("nothing is open")?,
         };
         let request = ExportRequest {
@@ -186,7 +192,7 @@ struct Supply {
     keys: Vec<Option<FrameKey>>,
     hashes: Vec<String>,
     scenery: Arc<Scenery>,
-    camera: CameraPath,
+    camera: Option<CameraPath>,
     info: RunInfo,
 }
 
@@ -205,7 +211,7 @@ impl FrameSupply for Supply {
         self.scenery.surfaces.clone()
     }
 
-    fn camera(&self) -> CameraPath {
+    fn camera(&self) -> Option<CameraPath> {
         self.camera.clone()
     }
 

@@ -13,7 +13,7 @@ use super::{Desk, theme};
 use crate::preview::Wake;
 use crate::render::{AdapterChoice, Canvas, Gpu, Renderer, Sheet, UiPainter, WINDOW_FORMAT};
 
-pub use player::{Player, Request, check_opened};
+pub use player::{Player, Request, check_ended};
 
 /// Between two redraws nothing may happen for so long, unless a thread has something to say.
 const PASS_EVERY: Duration = Duration::from_millis(15);
@@ -47,7 +47,7 @@ pub fn run(
         while woken.try_recv().is_ok() {}
     }
     desk.close();
-    check_opened(&desk)
+    check_ended(&desk)
 }
 
 fn wake() -> (Wake, Receiver<()>) {

@@ -11,7 +11,7 @@ use egui::{Color32, Rect, Sense, Stroke, StrokeKind, TextureId, Ui, pos2, vec2};
 use super::theme;
 use crate::preview::{Action, EyeAndTarget, Layout, Look, Previewer, Scenery, Wake};
 use crate::render::{
-    CameraTrail, ColourBy, DrawList, GateRect, LogRange, SafeArea, TargetTexture, gate_aspect,
+    CameraTrail, ColourBy, DrawList, GateRect, SafeArea, SeenRanges, TargetTexture, gate_aspect,
     gate_rect,
 };
 use crate::shot::{CameraPath, View};
@@ -83,7 +83,8 @@ pub struct Viewports {
     pub space: Rect,
     /// Shot and witness of B, then of A.
     panes: [Pane; 4],
-    trail: Option<(Arc<CameraPath>, CameraTrail)>,
+    /// Of B's camera and of A's.
+    trails: Vec<(Arc<CameraPath>, CameraTrail)>,
     /// Where the witness stands unless it is moved, found once for what is open.
     found_witness: Option<FoundWitness>,
     ranges: Ranges,
@@ -116,17 +117,17 @@ struct CachedList {
 /// What the colour scales that follow the frames have seen since something was opened.
 #[derive(Clone, Debug)]
 struct Ranges {
-    edge: Option<LogRange>,
-    /// (m/s).
-    speed: f64,
+    values: SeenRanges,
     /// The smallest view factor of the frame that was looked at last.
     least_factor: f64,
     /// The frame that was looked at last.
     seen: Option<Same<Frame>>,
 }
 
-impl Ranges {
-    const NOTHING_SEEN: Self = Self { edge: None, speed: 0.0, least_factor: 1.0, seen: None };
+impl Default for Ranges {
+    fn default() -> Self {
+        Self { values: SeenRanges::default(), least_factor: 1.0, seen: None }
+    }
 }
 
 const SAFE_LINE: Color32 = Color32::from_rgba_premultiplied(40, 42, 48, 170);
@@ -137,9 +138,9 @@ impl Viewports {
         Self {
             space: Rect::ZERO,
             panes: Default::default(),
-            trail: None,
+            trails: Vec::new(),
             found_witness: None,
-            ranges: Ranges::NOTHING_SEEN,
+            ranges: Ranges::default(),
             lists: Vec::new(),
             crossings: FoundCrossings::new(wake),
             grabbed: false,
@@ -155,7 +156,7 @@ impl Viewports {
     /// Something else was opened.
     pub fn forget_place(&mut self) {
         self.found_witness = None;
-        self.ranges = Ranges::NOTHING_SEEN;
+        self.ranges = Ranges::default();
     }
 
     /// Lays the panes out over the rest of the space.

@@ -9,7 +9,7 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Window, WindowId};
 
-use super::replay::{Player, Request, check_opened};
+use super::replay::{Player, Request, check_ended};
 use super::{Desk, theme};
 use crate::preview::{Action, Wake};
 use crate::render::{
@@ -54,7 +54,7 @@ pub fn run(
     program.desk.close();
     match (program.failure, program.player) {
         (Some(failure), _) => Err(failure),
-        (None, Some(_)) => check_opened(&program.desk),
+        (None, Some(_)) => check_ended(&program.desk),
         (None, None) => Ok(()),
     }
 }

@@ -156,6 +156,9 @@ pub enum Action {
     Save,
     SaveAs {
         path: PathBuf,
+        /// Whether another file of that name is written over without a question.
+        #[serde(default)]
+        overwrite: bool,
     },
     Export {
         export: Export,
@@ -174,6 +177,10 @@ pub enum Action {
         index: usize,
     },
     Quit,
+    /// Whether an action that would write over files is to be done all the same.
+    WriteOver {
+        yes: bool,
+    },
     /// Whether an action that would lose changed settings is to be done all the same.
     GiveUpEdits {
         yes: bool,
@@ -231,6 +238,9 @@ pub struct Export {
     /// Shot, frame, lens and settings in a strip under the picture.
     pub burn_in: bool,
     pub to: PathBuf,
+    /// Whether files of its names are written over without a question.
+    #[serde(default)]
+    pub overwrite: bool,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]

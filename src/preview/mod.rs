@@ -44,8 +44,8 @@ pub use reader::FrameReader;
 pub use save::{SaveError, rebased, saved_text, seen_from, wrapped_text};
 pub use scenery::Scenery;
 pub use state::{
-    ColourMode, Layout, Level, Look, Message, Overlay, PanelName, Playback, Remembered, State,
-    Viewport,
+    ColourMode, Layout, Level, Look, Message, Overlay, Overwriting, PanelName, Playback,
+    Remembered, State, Viewport,
 };
 pub use store::{FrameStore, MEMORY_BUDGET, Place};
 pub use timeline::{Cost, FrameStatus, Slot, Timeline};

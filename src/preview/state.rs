@@ -1,11 +1,14 @@
 //! What the previewer shows and how it is set: plain data, changed by [actions](super::Action) only.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use super::action::{Action, Reach};
 use super::history::{History, Version};
 use super::key::FrameKey;
 use super::navigate::EyeAndTarget;
+use crate::shot::CameraPath;
 
 /// See the module.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,6 +31,8 @@ pub struct State {
     pub simulating: bool,
     /// What would lose changed settings, and waits for a word about that.
     pub unsaved: Option<Action>,
+    /// What would write over files, and waits for a word about that.
+    pub overwriting: Option<Overwriting>,
     pub messages: Vec<Message>,
 }
 
@@ -177,7 +182,18 @@ pub struct Remembered {
     pub version: Version,
     /// By frame number.
     pub keys: Vec<Option<FrameKey>>,
+    /// The shot camera that they were simulated for.
+    pub camera: Option<Arc<CameraPath>>,
     pub settings_hash: String,
+}
+
+/// A question before files are written over.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overwriting {
+    /// What is there, in words.
+    pub what: String,
+    /// What is done if they may be.
+    pub action: Action,
 }
 
 /// Something the user should know.

@@ -1,6 +1,6 @@
 //! Scripts replayed in memory: no display is needed.
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::picture::{
     CLOTH_LEAST, SHOT, WITNESS, WITNESS_CLOTH_LEAST, blue, differing, screenshot,
@@ -34,6 +34,31 @@ fn keys_and_pointer_do_what_the_help_says() {
     // Edge size has other colours than the view factor.
     assert!(blue(&after, SHOT) < blue(&before, SHOT) / 4);
     assert!(differing(&after, &alone, SHOT) > 20_000);
+}
+
+#[test]
+fn what_is_kept_as_a_is_seen_through_its_own_camera() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let script = json!([
+        {"wait-for-frames": {"first": 0, "last": 0}},
+        {"act": {"simulate": {"on": false}}},
+        {"act": "keep-as-a"},
+        {"act": {"compare": {"wipe": 0.5}}},
+        {"screenshot": {"to": at("before.png")}},
+        {"act": {"move-camera": {"eye": [1.5, -4.0, 1.4], "target": [0.0, 0.0, 1.0]}}},
+        {"act": "set-key"},
+        "wait-until-idle",
+        {"screenshot": {"to": at("after.png")}}
+    ]);
+    succeeded(&preview(folder.path(), &script).output().unwrap());
+    let [before, after] = ["before.png", "after.png"].map(|name| screenshot(&at(name)));
+    // A is left of the middle, B right of it; the line between them lies in neither.
+    let [x0, y0, x1, y1] = SHOT;
+    let middle = (x0 + x1) / 2;
+    let [a, b] = [[x0, y0 + 60, middle - 10, y1 - 30], [middle + 10, y0 + 60, x1, y1 - 30]];
+    assert_eq!(differing(&before, &after, a), 0, "A is not seen as it was");
+    assert!(differing(&before, &after, b) > 5000, "B's camera has not moved");
 }
 
 #[test]
@@ -102,6 +127,38 @@ fn a_script_whose_shot_cannot_be_read_ends_as_with_bad_input() {
         assert_eq!(output.status.code(), Some(3), "{script}: {said}");
         assert!(said.contains("cannot read") && said.contains("no/shot.json"), "{said}");
     }
+}
+
+#[test]
+fn a_script_writes_over_files_only_if_it_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().join("still.png");
+    let still = |more: Value| {
+        let mut export = json!({
+            "kind": "still", "viewport": "shot", "width": 64, "burn-in": false, "to": to
+        });
+        export.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        json!({"act": {"export": {"export": export}}})
+    };
+    let first = json!({"wait-for-frames": {"first": 0, "last": 0}});
+    let halt = json!({"act": {"simulate": {"on": false}}});
+    let run = |steps: &[Value]| preview(folder.path(), &json!(steps)).output().unwrap();
+    let idle = json!("wait-until-idle");
+    succeeded(&run(&[first.clone(), halt.clone(), still(json!({})), idle.clone()]));
+    std::fs::write(&to, "another").unwrap();
+    for steps in [
+        vec![first.clone(), halt.clone(), still(json!({})), idle.clone()],
+        // Even if it does not look whether it is done.
+        vec![first.clone(), halt.clone(), still(json!({}))],
+    ] {
+        let output = run(&steps);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("still.png") && said.contains("\"overwrite\": true"), "{said}");
+        assert_eq!(std::fs::read(&to).unwrap(), b"another");
+    }
+    succeeded(&run(&[first, halt, still(json!({"overwrite": true})), idle]));
+    assert!(image::open(&to).is_ok());
 }
 
 #[test]

@@ -40,6 +40,35 @@ pub(super) fn checked_frames(request: &ExportRequest) -> Result<Vec<u32>> {
     Ok(frames)
 }
 
+/// What an export would write over, in words; `first_frame` is what frame 0 is called. A run folder that
+/// is there is left alone by whoever writes one.
+pub fn in_the_way(request: &ExportRequest, first_frame: i64) -> Option<String> {
+    let to = &request.to;
+    match &request.what {
+        ExportKind::Run { .. } => None,
+        ExportKind::Still { .. } | ExportKind::Sheet { .. } | ExportKind::Video { .. } => {
+            to.exists().then(|| format!("there is a {:?} already", to.display()))
+        }
+        ExportKind::Sequence { .. } => {
+            let frames = frames(&request.what).unwrap_or_default();
+            let name = |&frame: &u32| picture_name(i64::from(frame) + first_frame, &request.view);
+            let count = frames.iter().filter(|frame| to.join(name(frame)).exists()).count();
+            let words = || format!("{:?} holds {count} of these pictures already", to.display());
+            (count > 0).then(words)
+        }
+    }
+}
+
+/// Of a frame of a sequence, as the shot counts.
+pub(super) fn picture_name(shown: i64, view: &ExportView) -> String {
+    let view = match view {
+        ExportView::Shot => "shot",
+        ExportView::Witness(_) => "witness",
+        ExportView::Both(_) => "both",
+    };
+    format!("{shown:04}.{view}.png")
+}
+
 fn frames(what: &ExportKind) -> Result<Vec<u32>> {
     let range = |first: u32, last: u32, stride: u32| {
         ensure!(first <= last, "the first frame, {first}, is after the last, {last}");

@@ -21,8 +21,9 @@ use anyhow::Result;
 use crate::render::{AdapterChoice, PictureOptions};
 use crate::shot::View;
 
-pub use check::{SHEET_PIXELS_MAX, WIDTH_MAX, WIDTH_MIN};
+pub use check::{SHEET_PIXELS_MAX, WIDTH_MAX, WIDTH_MIN, in_the_way};
 pub use job::{ExportJob, ExportProgress, ExportState};
+pub(in crate::app) use pictures::seen_in_shape;
 pub use supply::FrameSupply;
 
 use job::{Outcome, Ticket};

@@ -8,23 +8,29 @@ use image::{Rgba, RgbaImage, imageops};
 use super::burn_in::{PAPER, Strip, strip_height, with_strip};
 use super::{BurnIn, ExportKind, ExportView, Task};
 use crate::render::{
-    Bounds, CameraTrail, Headless, PictureOptions, ShotCamera, gate_aspect, size_of_width,
+    Bounds, CameraTrail, Headless, PictureOptions, ShotCamera, WITNESS_FOV_Y, gate_aspect,
+    size_of_width,
 };
 use crate::run::RunInfo;
 use crate::scene::Surface;
-use crate::shot::{CameraPath, View};
+use crate::shot::{CameraPath, Lens, View};
 use crate::sim::Frame;
 
 /// Draws the frames of a task.
 pub(super) struct Pictures<'a> {
     task: Task<'a>,
     gpu: Headless,
-    camera: CameraPath,
-    trail: CameraTrail,
+    camera: Option<Camera>,
     surfaces: Vec<Arc<Surface>>,
     info: RunInfo,
     /// Of one view's picture (px).
     size: [u32; 2],
+}
+
+/// The shot camera, and its way as the witness sees it.
+struct Camera {
+    path: CameraPath,
+    trail: CameraTrail,
 }
 
 /// Between the two pictures of a pair (px): even, as video wants it.
@@ -34,15 +40,12 @@ const TRAIL_LAST_MAX: f64 = 100_000.0;
 
 impl<'a> Pictures<'a> {
     /// # Errors
-    /// If there is no such adapter, or the shot's camera cannot be used.
+    /// If there is no such adapter, or the shot's camera is asked for and cannot be used.
     pub fn new(task: Task<'a>) -> Result<Self> {
-        let camera = task.supply.camera();
-        camera.check().context("the shot's camera cannot be used")?;
-        let [_, last] = camera.frame_range();
-        let trail = CameraTrail::of(&camera, last.clamp(0.0, TRAIL_LAST_MAX) as u32);
+        let camera = task.supply.camera().map(Camera::of).transpose()?;
         let shape = match (&task.request.what, &task.request.view) {
             (ExportKind::Sheet { .. }, _) | (_, ExportView::Shot | ExportView::Both(_)) => {
-                camera.view(0.0)
+                camera.as_ref().ok_or_else(no_camera)?.path.view(0.0)
             }
             (_, ExportView::Witness(view)) => *view,
         };
@@ -53,7 +56,7 @@ impl<'a> Pictures<'a> {
         };
         let gpu = Headless::new(task.adapter)?;
         let (surfaces, info) = (task.supply.surfaces(), task.supply.info());
-        Ok(Self { task, gpu, camera, trail, surfaces, info, size })
+        Ok(Self { task, gpu, camera, surfaces, info, size })
     }
 
     pub fn info(&self) -> &RunInfo {
@@ -100,9 +103,10 @@ impl<'a> Pictures<'a> {
     }
 
     /// # Errors
-    /// If the device fails.
+    /// If there is no shot camera or the device fails.
     pub fn shot(&mut self, frame: &Frame) -> Result<RgbaImage> {
-        let view = self.camera.view(f64::from(frame.number));
+        let camera = self.camera.as_ref().ok_or_else(no_camera)?;
+        let view = camera.path.view(f64::from(frame.number));
         // The ground is the witness's: the shot shows what is in the scene.
         let options = PictureOptions { ground_height: None, ..self.options() };
         Ok(self.gpu.picture(frame, &self.surfaces, &view, &options)?)
@@ -111,20 +115,23 @@ impl<'a> Pictures<'a> {
     /// # Errors
     /// If the device fails.
     pub fn witness(&mut self, frame: &Frame, witness: &View) -> Result<RgbaImage> {
-        let at = f64::from(frame.number);
-        let view = self.camera.view(at);
-        let ghost = self.task.request.ghost_frames.map(|later| self.camera.view(at + later));
-        let camera = ShotCamera {
-            view: &view,
-            trail: &self.trail,
-            frustum_depth: ShotCamera::frustum_depth_past(&view, Bounds::of_cloth(frame)),
-            ghost: ghost.as_ref(),
-        };
         let witness = seen_in_shape(*witness, self.size);
         // A pair needs one legend, and the shot's picture has it.
         let options = match self.task.request.view {
             ExportView::Both(_) => PictureOptions { legend_px: None, ..self.options() },
             ExportView::Shot | ExportView::Witness(_) => self.options(),
+        };
+        let Some(camera) = &self.camera else {
+            return Ok(self.gpu.picture(frame, &self.surfaces, &witness, &options)?);
+        };
+        let at = f64::from(frame.number);
+        let view = camera.path.view(at);
+        let ghost = self.task.request.ghost_frames.map(|later| camera.path.view(at + later));
+        let camera = ShotCamera {
+            view: &view,
+            trail: &camera.trail,
+            frustum_depth: ShotCamera::frustum_depth_past(&view, Bounds::of_cloth(frame)),
+            ghost: ghost.as_ref(),
         };
         Ok(self.gpu.witness_picture(frame, &self.surfaces, &witness, &camera, &options)?)
     }
@@ -148,10 +155,28 @@ impl<'a> Pictures<'a> {
                 ExportView::Both(_) => "shot camera | witness",
             },
             frame: i64::from(number) + self.info.first_frame,
-            lens: self.camera.lens(f64::from(number)),
+            lens: match &self.camera {
+                Some(camera) => camera.path.lens(f64::from(number)),
+                None => Lens::FieldOfView { fov_y: WITNESS_FOV_Y },
+            },
             settings_hash: self.task.settings_hash(&self.info, number)?,
         })
     }
+}
+
+impl Camera {
+    /// # Errors
+    /// If it cannot be used.
+    fn of(path: CameraPath) -> Result<Self> {
+        path.check().context("the shot's camera cannot be used")?;
+        let [_, last] = path.frame_range();
+        let trail = CameraTrail::of(&path, last.clamp(0.0, TRAIL_LAST_MAX) as u32);
+        Ok(Self { path, trail })
+    }
+}
+
+fn no_camera() -> anyhow::Error {
+    anyhow!("the shot has no camera to export through: the witness's view can be exported")
 }
 
 impl Task<'_> {
@@ -179,7 +204,7 @@ fn even(length: u32) -> u32 {
 
 /// The view with its gate made wider or higher about its middle, so that it has the shape of a picture
 /// of a size (px) and nothing is lost.
-fn seen_in_shape(view: View, size: [u32; 2]) -> View {
+pub fn seen_in_shape(view: View, size: [u32; 2]) -> View {
     let [width, height] = size.map(|px| f64::from(px.max(1)));
     let growth = width / height / gate_aspect(&view);
     let mut half = 0.5 * (view.gate_max - view.gate_min);

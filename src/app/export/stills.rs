@@ -2,6 +2,7 @@
 
 use anyhow::{Result, bail};
 
+use super::check::picture_name;
 use super::job::Outcome;
 use super::pictures::Pictures;
 use super::{ExportView, Task};
@@ -78,17 +79,12 @@ fn subtitle(frames: &[u32], info: &RunInfo) -> String {
 pub(super) fn sequence(task: Task<'_>, frames: &[u32]) -> Result<Outcome> {
     let folder = PendingFolder::create(&task.request.to)?;
     let mut pictures = Pictures::new(task)?;
-    let view = match task.request.view {
-        ExportView::Shot => "shot",
-        ExportView::Witness(_) => "witness",
-        ExportView::Both(_) => "both",
-    };
     for &number in frames {
         if task.ticket.is_cancelled() {
             return Ok(Outcome::Cancelled(what_stays(task)));
         }
         let shown = i64::from(number) + pictures.info().first_frame;
-        let pending = folder.file(&format!("{shown:04}.{view}.png"))?;
+        let pending = folder.file(&picture_name(shown, &task.request.view))?;
         pending.write_png(&pictures.picture(number)?)?;
         task.ticket.step();
     }

@@ -25,8 +25,8 @@ pub trait FrameSupply: Send {
     /// The obstacles' surfaces at rest, in the order of a frame's poses.
     fn surfaces(&self) -> Vec<Arc<Surface>>;
 
-    /// The shot camera.
-    fn camera(&self) -> CameraPath;
+    /// The shot camera; the witness's view needs none.
+    fn camera(&self) -> Option<CameraPath>;
 
     /// What a run of these frames would say of itself: names, rate, first frame, settings.
     fn info(&self) -> RunInfo;

@@ -30,6 +30,7 @@ struct Reel {
     other_hashes: BTreeMap<u32, String>,
     /// What a frame takes to come.
     delay: Duration,
+    has_no_camera: bool,
 }
 
 impl Reel {
@@ -42,6 +43,7 @@ impl Reel {
             frames: (0..count).map(rising).collect(),
             other_hashes: BTreeMap::new(),
             delay: Duration::ZERO,
+            has_no_camera: false,
         }
     }
 }
@@ -62,7 +64,10 @@ impl FrameSupply for Reel {
         Vec::new()
     }
 
-    fn camera(&self) -> CameraPath {
+    fn camera(&self) -> Option<CameraPath> {
+        if self.has_no_camera {
+            return None;
+        }
         let aperture_mm = DVec2::new(36.0, 24.0);
         let key = |frame: f64, x: f64| CameraKey {
             frame,
@@ -72,14 +77,14 @@ impl FrameSupply for Reel {
             lens: Lens::FilmBack { focal_mm: 35.0, aperture_mm, offset_mm: DVec2::ZERO },
             cut: false,
         };
-        CameraPath {
+        Some(CameraPath {
             name: "drive".to_owned(),
             resolution: [320, 180],
             pixel_aspect: 1.0,
             near: 0.05,
             far: 40.0,
             track: Track::Keys(vec![key(0.0, -0.6), key(20.0, 0.9)]),
-        }
+        })
     }
 
     fn info(&self) -> RunInfo {
@@ -191,6 +196,45 @@ fn a_still_is_a_picture_of_the_view_with_the_strip_under_it() {
     done(ExportRequest { view: ExportView::Both(witness()), ..bare }, Reel::new(4));
     assert_eq!(size_of(&to), (328, 90));
     assert_eq!(names(folder.path()), ["still.png"]);
+}
+
+#[test]
+fn without_a_shot_camera_the_witness_can_be_exported_and_nothing_else() {
+    let folder = folder();
+    let to = folder.path().join("still.png");
+    let reel = || Reel { has_no_camera: true, ..Reel::new(2) };
+    let bare = request(ExportKind::Still { frame: 1 }, &to);
+    let seen = ExportRequest {
+        view: ExportView::Witness(witness()),
+        burn_in: BurnIn::Strip,
+        ..bare.clone()
+    };
+    assert_eq!(done(seen, reel()), 1);
+    assert_eq!(size_of(&to).0, 160);
+    for view in [ExportView::Shot, ExportView::Both(witness())] {
+        let why = why_not(ExportRequest { view, ..bare.clone() }, reel());
+        assert!(why.contains("the shot has no camera"), "{why}");
+    }
+    let run = request(ExportKind::Run { first: 0, last: 1 }, &folder.path().join("run"));
+    assert_eq!(done(run, reel()), 2);
+}
+
+#[test]
+fn what_is_in_the_way_of_an_export_is_said() {
+    let folder = folder();
+    let to = folder.path().join("a.png");
+    let still = request(ExportKind::Still { frame: 1 }, &to);
+    assert_eq!(in_the_way(&still, FIRST_FRAME), None);
+    fs::write(&to, "").unwrap();
+    assert!(in_the_way(&still, FIRST_FRAME).unwrap().contains("a.png"));
+    let sequence = request(ExportKind::Sequence { first: 1, last: 3, stride: 1 }, folder.path());
+    // Another view's pictures, and other frames.
+    for name in ["1001.witness.png", "1000.shot.png", "1005.shot.png"] {
+        fs::write(folder.path().join(name), "").unwrap();
+    }
+    assert_eq!(in_the_way(&sequence, FIRST_FRAME), None);
+    fs::write(folder.path().join("1003.shot.png"), "").unwrap();
+    assert!(in_the_way(&sequence, FIRST_FRAME).unwrap().contains("holds 1 of"));
 }
 
 #[test]

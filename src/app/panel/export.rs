@@ -61,7 +61,7 @@ impl ExportPanel {
                     let (kind, viewport, width, burn_in) =
                         (self.kind, self.viewport, self.width, self.burn_in);
                     let to = PathBuf::from(to.trim());
-                    let export = Export { kind, viewport, width, burn_in, to };
+                    let export = Export { kind, viewport, width, burn_in, to, overwrite: false };
                     actions.push(Action::Export { export });
                 }
                 let words = "stills of any frame; all else of frames that a clean run gives";

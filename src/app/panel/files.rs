@@ -78,7 +78,7 @@ impl FilesPanel {
             let is_shot = matches!(context.previewer.source(), Source::Shot(_));
             let save = ui.add_enabled(is_typed && is_shot, egui::Button::new("Save as"));
             if save.on_hover_text("the shot with its changed settings, under this name").clicked() {
-                actions.push(Action::SaveAs { path });
+                actions.push(Action::SaveAs { path, overwrite: false });
             }
         });
         if context.previewer.is_opening() {

@@ -13,6 +13,7 @@ const SHOWN: usize = 5;
 pub fn show(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
     changed_files(ui, context, actions);
     unsaved(ui, context, actions);
+    overwriting(ui, context, actions);
     export(ui, context, actions);
     legend(ui, context);
     let messages = &context.previewer.state().messages;
@@ -72,6 +73,21 @@ fn unsaved(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
             }
             if ui.button("Go back").clicked() {
                 actions.push(Action::GiveUpEdits { yes: false });
+            }
+        });
+    });
+}
+
+/// Before files are written over.
+fn overwriting(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
+    let Some(asked) = &context.previewer.state().overwriting else { return };
+    dialog(ui, "Write over?").show(ui.ctx(), |ui| {
+        ui.label(&asked.what);
+        ui.horizontal(|ui| {
+            for (name, yes) in [("Write over", true), ("Go back", false)] {
+                if ui.button(name).clicked() {
+                    actions.push(Action::WriteOver { yes });
+                }
             }
         });
     });

@@ -9,7 +9,7 @@ use serde_json::json;
 
 use crate::app::Desk;
 use crate::app::script::{Button, ScriptError, ScriptStep};
-use crate::preview::{FrameStatus, Level};
+use crate::preview::{Action, FrameStatus, Level};
 
 /// A step that waits gives up after so long (s).
 const PATIENCE: f64 = 600.0;
@@ -43,7 +43,8 @@ impl Player {
 
     /// Whether nothing is left to be done or to be waited for.
     pub fn is_done(&self, desk: &Desk) -> bool {
-        self.steps.is_empty() && self.inputs.is_empty() && !desk.previewer().is_opening()
+        let is_idle = !desk.has_actions() && !desk.previewer().is_opening();
+        self.steps.is_empty() && self.inputs.is_empty() && is_idle
     }
 
     /// How long it can be before the script looks again (s): what waits for the simulation must not take
@@ -96,6 +97,9 @@ impl Player {
         desk: &mut Desk,
         waited: f64,
     ) -> Result<(bool, Request)> {
+        if !may_leave_a_question_open(step) {
+            check_answered(desk)?;
+        }
         let mut request = Request::Nothing;
         let done = match step {
             ScriptStep::Act(action) => {
@@ -208,11 +212,45 @@ fn button(pos: egui::Pos2, button: PointerButton, pressed: bool) -> Event {
     Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE }
 }
 
+/// How a script has ended.
+///
+/// # Errors
+/// If its shot could not be opened, or it has left a question open.
+pub fn check_ended(desk: &Desk) -> Result<()> {
+    check_opened(desk)?;
+    check_answered(desk)
+}
+
+/// A script that looks at the question, or clicks on its answer.
+fn may_leave_a_question_open(step: &ScriptStep) -> bool {
+    match step {
+        ScriptStep::Act(action) => matches!(action, Action::WriteOver { .. }),
+        ScriptStep::WaitForFrames { .. }
+        | ScriptStep::WaitUntilIdle
+        | ScriptStep::WaitUntilShown { .. } => false,
+        ScriptStep::Wait { .. }
+        | ScriptStep::Click { .. }
+        | ScriptStep::Drag { .. }
+        | ScriptStep::Press { .. }
+        | ScriptStep::Screenshot { .. }
+        | ScriptStep::Report { .. }
+        | ScriptStep::ClearPace => true,
+    }
+}
+
+/// Nobody is there to be asked.
+fn check_answered(desk: &Desk) -> Result<()> {
+    match &desk.previewer().state().overwriting {
+        Some(asked) => bail!("{}: to write over it say \"overwrite\": true", asked.what),
+        None => Ok(()),
+    }
+}
+
 /// A script is for a shot: one that cannot be read, and no other in its place, is bad input.
 ///
 /// # Errors
 /// In the words of whoever read it.
-pub fn check_opened(desk: &Desk) -> Result<()> {
+fn check_opened(desk: &Desk) -> Result<()> {
     match desk.previewer().opening_failure() {
         Some(why) => Err(ScriptError::NotOpened(why.to_owned()).into()),
         None => Ok(()),

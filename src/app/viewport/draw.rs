@@ -7,17 +7,16 @@ use glam::DVec3;
 use super::{
     CachedList, Drawn, Eye, FoundWitness, Pane, Ranges, Same, Side, Viewports, index, shot_view,
 };
+use crate::app::export::seen_in_shape;
 use crate::preview::{ColourMode, EyeAndTarget, ImagePlane, Look, Previewer, Scenery};
 use crate::render::{
     Bounds, CameraTrail, ColourBy, CrossingMarks, DrawList, Gpu, LogRange, PictureOptions,
     RenderError, Renderer, STRAIN_LIMIT, ShotCamera, TargetTexture, UiPainter, WITNESS_FOV_Y,
     WitnessSubject, witness_view,
 };
-use crate::shot::{Lens, View};
+use crate::shot::{CameraPath, Lens, View};
 use crate::sim::Frame;
 
-/// Shot views that decide where the witness stands.
-const PATH_SAMPLES: u32 = 24;
 /// Size of the picture for which the witness's place is found (px).
 const USUAL_SIZE: [u32; 2] = [1280, 720];
 
@@ -40,10 +39,11 @@ impl Viewports {
             // Without a frame there is still the camera to be seen.
             let frame = frame.unwrap_or_default();
             self.ranges.see(&frame);
-            if let Some(drawn) = self.wanted(eye, size, &frame, previewer, &scenery) {
+            let camera = camera_of(side, previewer, &scenery);
+            if let Some(drawn) = self.wanted((eye, side), size, &frame, previewer, &scenery) {
                 let place = index(eye, side);
                 if self.panes[place].drawn.as_ref() != Some(&drawn) {
-                    let list = self.list(eye, &frame, &drawn, &scenery);
+                    let list = self.list(eye, &frame, &drawn, (&scenery, camera.as_ref()));
                     wanted.push((place, Wanted { list, drawn }));
                 }
             }
@@ -115,24 +115,21 @@ impl Viewports {
     pub fn colour_by(&self, look: &Look, scenery: &Scenery) -> ColourBy {
         match look.colour {
             ColourMode::ViewFactor => view_factor(scenery, self.ranges.least_factor),
-            ColourMode::EdgeSize => {
-                ColourBy::EdgeSize(self.ranges.edge.unwrap_or(LogRange { start: 0.01, end: 0.1 }))
-            }
+            ColourMode::EdgeSize => self.ranges.values.edge_size(),
             ColourMode::Strain => ColourBy::Strain { limit: STRAIN_LIMIT },
-            ColourMode::Velocity => ColourBy::speed(self.ranges.speed),
+            ColourMode::Velocity => self.ranges.values.speed(),
             ColourMode::Plain => ColourBy::Plain,
         }
     }
 
     fn wanted(
         &mut self,
-        eye: Eye,
+        (eye, side): (Eye, Side),
         size: [u32; 2],
         frame: &Arc<Frame>,
         previewer: &Previewer,
         scenery: &Arc<Scenery>,
     ) -> Option<Drawn> {
-        self.follow_camera(scenery);
         self.find_witness(frame, previewer, scenery);
         let look = Look {
             // What concerns the layout alone changes no picture.
@@ -146,13 +143,20 @@ impl Viewports {
             safe_areas: false,
             ..previewer.state().look
         };
-        let shot = shot_view(previewer, scenery);
+        let camera = camera_of(side, previewer, scenery);
+        let current = f64::from(previewer.state().playback.current);
+        let shot = match side {
+            Side::B => shot_view(previewer, scenery),
+            Side::A => camera.as_ref().map(|path| path.view(current)),
+        };
         let view = match eye {
+            // A's picture stands where B's does, whatever the shape of its gate.
+            Eye::Shot if side == Side::A => seen_in_shape(shot?, size),
             Eye::Shot => shot?,
             Eye::Witness => witness(self.witness_place(previewer)?, size),
         };
-        let ahead = f64::from(previewer.state().playback.current) + scenery.anticipation();
-        let ghost = scenery.camera.as_ref().filter(|_| look.ghost).map(|path| path.view(ahead));
+        let ahead = current + scenery.anticipation();
+        let ghost = camera.as_ref().filter(|_| look.ghost).map(|path| path.view(ahead));
         Some(Drawn {
             frame: Same(frame.clone()),
             scenery: Same(scenery.clone()),
@@ -171,7 +175,7 @@ impl Viewports {
         eye: Eye,
         frame: &Arc<Frame>,
         drawn: &Drawn,
-        scenery: &Arc<Scenery>,
+        (scenery, camera): (&Arc<Scenery>, Option<&Arc<CameraPath>>),
     ) -> DrawList {
         let mut list = self.base_list(frame, drawn, scenery).clone();
         if drawn.marked
@@ -185,7 +189,7 @@ impl Viewports {
                 let no_trail = CameraTrail::default();
                 let camera = ShotCamera {
                     view: shot,
-                    trail: self.trail.as_ref().map_or(&no_trail, |(_, trail)| trail),
+                    trail: camera.map_or(&no_trail, |camera| self.trail(camera, scenery.last)),
                     frustum_depth: ShotCamera::frustum_depth_past(shot, Bounds::of_cloth(frame)),
                     ghost: drawn.ghost.as_ref(),
                 };
@@ -232,14 +236,17 @@ impl Viewports {
         &self.lists.last().expect("pushed just now").list
     }
 
-    fn follow_camera(&mut self, scenery: &Scenery) {
-        let Some(path) = &scenery.camera else {
-            self.trail = None;
-            return;
-        };
-        if self.trail.as_ref().is_none_or(|(of, _)| !Arc::ptr_eq(of, path)) {
-            self.trail = Some((path.clone(), CameraTrail::of(path, scenery.last)));
+    fn trail(&mut self, path: &Arc<CameraPath>, last: u32) -> &CameraTrail {
+        /// Of A and of B.
+        const TRAILS_KEPT: usize = 2;
+        if let Some(place) = self.trails.iter().position(|(of, _)| Arc::ptr_eq(of, path)) {
+            return &self.trails[place].1;
         }
+        if self.trails.len() == TRAILS_KEPT {
+            self.trails.remove(0);
+        }
+        self.trails.push((path.clone(), CameraTrail::of(path, last)));
+        &self.trails.last().expect("pushed just now").1
     }
 
     /// Finds the witness's place from the first cloth that is there; it stays while the shot is open.
@@ -249,17 +256,10 @@ impl Viewports {
             return;
         }
         let cloth = Bounds::of_cloth(frame);
-        let mut subject = WitnessSubject { cloth, views: Vec::new() };
-        if let Some(path) = &scenery.camera {
-            let stride = (scenery.last / PATH_SAMPLES).max(1) as usize;
-            let frames = (0..=scenery.last).step_by(stride);
-            subject.views = frames.map(|frame| path.view(f64::from(frame))).collect();
-        }
-        for (number, (surface, &pose)) in
-            scenery.surfaces.iter().zip(&frame.obstacle_poses).enumerate()
-        {
-            subject = subject.with_obstacle(frame.points_of_obstacle(number, surface), pose);
-        }
+        let frames = scenery.last as usize + 1;
+        let frames = (0..frames).map(|frame| frame as u32);
+        let subject = WitnessSubject::of(cloth, scenery.camera.as_deref(), frames)
+            .with_obstacles(frame, &scenery.surfaces);
         let size = self.panes[index(Eye::Witness, Side::B)].wanted.unwrap_or(USUAL_SIZE);
         let view = witness_view(&subject, size);
         let distance = view.eye.distance(subject.cloth.centre());
@@ -302,19 +302,14 @@ impl Ranges {
         }
         self.seen = Some(this);
         self.least_factor = frame.report.view_factor_min;
-        let edge = ColourBy::EdgeSize(LogRange { start: 1.0, end: 2.0 });
-        let speed = ColourBy::Speed { limit: 1.0 };
-        for mesh in &frame.garments {
-            for face in mesh.face_ids() {
-                let length = edge.value(mesh, face);
-                let range =
-                    self.edge.get_or_insert(LogRange { start: length, end: length * 1.001 });
-                range.start = range.start.min(length);
-                range.end = range.end.max(length);
-                self.speed = self.speed.max(speed.value(mesh, face));
-            }
-        }
+        self.values.see(frame);
     }
+}
+
+/// The camera that a side's frames were simulated for: their detail is right through no other.
+fn camera_of(side: Side, previewer: &Previewer, scenery: &Scenery) -> Option<Arc<CameraPath>> {
+    let of_a = previewer.state().a.as_ref().filter(|_| side == Side::A);
+    of_a.map_or_else(|| scenery.camera.clone(), |a| a.camera.clone())
 }
 
 /// What the witness sees from a place.

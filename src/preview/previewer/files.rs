@@ -1,10 +1,10 @@
 //! Files: opened, reloaded, saved.
 
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::{Occasion, Previewer};
+use crate::output::{PendingFile, folder_of};
 use crate::own_shot::own_shot_parts;
 use crate::preview::action::Action;
 use crate::preview::camera_edit::camera_setting;
@@ -26,9 +26,22 @@ impl Previewer {
             }
             Action::IgnoreChanges => self.ignored_files.append(&mut self.changed_files),
             Action::Save => self.save(None),
-            Action::SaveAs { path } => self.save(Some(path)),
+            Action::SaveAs { path, overwrite } => {
+                if !overwrite && path.exists() && !self.is_open_shot(&path) {
+                    let what = format!("there is another {:?} already", path.display());
+                    let action = Action::SaveAs { path, overwrite: true };
+                    self.ask_before_overwriting(what, action);
+                } else {
+                    self.save(Some(path));
+                }
+            }
             other => unreachable!("{other:?} is about other things"),
         }
+    }
+
+    fn is_open_shot(&self, path: &Path) -> bool {
+        let Source::Shot(Request { shot: Some(shot), .. }) = &self.source else { return false };
+        fs::canonicalize(shot).is_ok_and(|shot| fs::canonicalize(path).is_ok_and(|p| p == shot))
     }
 
     /// What was open stays until the new shot turns out to be one.
@@ -168,20 +181,6 @@ fn is_native(text: &str) -> bool {
 
 /// The file is the old one or the new one, never a part.
 fn write_whole(path: &Path, text: &str) -> Result<(), String> {
-    let folder = folder_of(path);
-    let write = || {
-        let mut file = tempfile::NamedTempFile::new_in(folder)?;
-        file.write_all(text.as_bytes())?;
-        if let Ok(about) = fs::metadata(path) {
-            file.as_file().set_permissions(about.permissions())?;
-        }
-        file.persist(path).map_err(|error| error.error)?;
-        Ok::<(), std::io::Error>(())
-    };
-    write().map_err(|error| format!("cannot write {:?}: {error}", path.display()))
-}
-
-/// Where a file is, or is to be.
-fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."))
+    let write = || PendingFile::create(path)?.write(text.as_bytes());
+    write().map_err(|error| format!("{error:#}"))
 }

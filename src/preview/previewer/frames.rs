@@ -135,6 +135,7 @@ impl Previewer {
         self.state.history = Default::default();
         self.state.a = None;
         self.state.wipe = None;
+        self.state.overwriting = None;
         self.state.witness = None;
         self.state.dragged_camera = None;
         self.timeline = Timeline::default();

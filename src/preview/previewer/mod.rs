@@ -25,7 +25,7 @@ use super::navigate::EyeAndTarget;
 use super::planner::{Planner, Source};
 use super::reader::FrameReader;
 use super::scenery::Scenery;
-use super::state::{Level, Look, State};
+use super::state::{Level, Look, Overwriting, State};
 use super::store::FrameStore;
 use super::timeline::{Cost, Timeline};
 use crate::run::{RunInfo, RunReader};
@@ -276,6 +276,11 @@ impl Previewer {
                     self.state.messages.remove(index);
                 }
             }
+            Action::WriteOver { yes } => {
+                if let Some(asked) = self.state.overwriting.take().filter(|_| yes) {
+                    self.act(asked.action);
+                }
+            }
             Action::Quit => self.effects.push(Effect::Quit),
             Action::GiveUpEdits { yes } => {
                 if let Some(action) = self.state.unsaved.take().filter(|_| yes) {
@@ -385,6 +390,11 @@ impl Previewer {
     pub fn run_info(&self) -> Option<RunInfo> {
         let of_run = || self.run.as_ref().map(|run| run.info().clone());
         self.plan.as_ref().map(|plan| plan.requested.info.clone()).or_else(of_run)
+    }
+
+    /// Has the user asked before files are written over; `action` is what then does so.
+    pub fn ask_before_overwriting(&mut self, what: String, action: Action) {
+        self.state.overwriting = Some(Overwriting { what, action });
     }
 
     /// A message from whoever draws or writes.

@@ -120,6 +120,7 @@ impl Previewer {
         self.state.a = Some(Remembered {
             version: self.state.version.clone(),
             keys: self.timeline.keys(),
+            camera: self.scenery.as_ref().and_then(|scenery| scenery.camera.clone()),
             settings_hash: settings_hash.unwrap_or_default(),
         });
         self.shown_of_a = None;

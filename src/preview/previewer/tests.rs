@@ -260,10 +260,33 @@ fn a_shot_saved_elsewhere_finds_its_files() {
     let deep = stage.folder.path().join("deep");
     fs::create_dir(&deep).unwrap();
     let to = deep.join("other.json");
-    p.act(Action::SaveAs { path: to.clone() });
+    p.act(Action::SaveAs { path: to.clone(), overwrite: false });
     p.until_opened();
     assert!(matches!(p.0.source(), Source::Shot(request) if request.shot == Some(to.clone())));
     assert_eq!(p.0.scenery().unwrap().name, "other");
+}
+
+#[test]
+fn another_file_is_written_over_only_after_a_word_about_it() {
+    let stage = Stage::set();
+    let mut p = stage.start(false);
+    p.until_opened();
+    let to = stage.folder.path().join("other.json");
+    fs::write(&to, "mine").unwrap();
+    let save = Action::SaveAs { path: to.clone(), overwrite: false };
+    for (yes, text) in [(false, "mine"), (true, SHOT)] {
+        p.act(save.clone());
+        let asked = p.0.state.overwriting.clone().unwrap();
+        assert!(asked.what.contains("other.json"), "{}", asked.what);
+        assert_eq!(fs::read_to_string(&to).unwrap(), "mine");
+        p.act(Action::WriteOver { yes });
+        p.until_opened();
+        assert!(p.0.state.overwriting.is_none());
+        assert_eq!(fs::read_to_string(&to).unwrap(), text);
+    }
+    // What is open is no other file.
+    p.act(save);
+    assert!(p.0.state.overwriting.is_none());
 }
 
 #[test]
@@ -277,7 +300,7 @@ fn the_programs_own_shot_is_saved_as_a_copy_with_its_files() {
     let keys = p.0.timeline.wanted_keys().collect::<Vec<_>>();
     let to = stage.folder.path().join("mine/shot.json");
     fs::create_dir(to.parent().unwrap()).unwrap();
-    p.act(Action::SaveAs { path: to.clone() });
+    p.act(Action::SaveAs { path: to.clone(), overwrite: false });
     p.until_opened();
     assert!(matches!(p.0.source(), Source::Shot(request) if request.shot == Some(to.clone())));
     // The same shot elsewhere has the same frames.
