@@ -198,6 +198,12 @@ impl ApplicationHandler<Woken> for Program {
                 self.request_redraw();
                 return;
             }
+            WindowEvent::Destroyed => {
+                // Whoever asks a window about itself after its end gets no answer but a panic.
+                self.shown = None;
+                self.fail(event_loop, anyhow::anyhow!(self.words_at_the_windows_end()));
+                return;
+            }
             WindowEvent::Resized(size) => {
                 let device = &mut shown.device;
                 device.surface.resize(&device.gpu, [size.width, size.height]);
@@ -311,6 +317,16 @@ impl Program {
         shown.input = input_of(&self.context, &shown.window);
         shown.window.request_redraw();
         Ok(())
+    }
+
+    /// For a window that was not closed but destroyed, so that nobody could be asked.
+    fn words_at_the_windows_end(&self) -> &'static str {
+        match self.desk.previewer().state().version.edits.is_empty() {
+            true => "the window was destroyed from outside",
+            false => {
+                "the window was destroyed from outside: changed settings that were not saved are lost"
+            }
+        }
     }
 
     fn fail(&mut self, event_loop: &ActiveEventLoop, error: anyhow::Error) {

@@ -63,7 +63,8 @@ pub struct Timeline {
     /// anchor.
     clean: Vec<Option<FrameKey>>,
     wanted: Vec<Option<FrameKey>>,
-    /// What is known of frames that have been there, to be said again when they return.
+    /// What is known of frames that have been there, to be said again when they return. Those that the
+    /// store has no more do not: made again, they are known again.
     known: BTreeMap<FrameKey, (String, Option<Cost>)>,
 }
 
@@ -86,6 +87,7 @@ impl Timeline {
     pub fn follow(&mut self, plan: &Plan, anchor: Option<&Anchor>, store: &FrameStore) {
         self.clean = plan.keys(None);
         self.wanted = plan.keys(anchor);
+        self.known.retain(|key, _| store.has(*key));
         self.slots.resize(self.wanted.len(), None);
         for (number, slot) in self.slots.iter_mut().enumerate() {
             let known = |key: &FrameKey| store.has(*key);
@@ -132,6 +134,11 @@ impl Timeline {
                 *slot = None;
             }
         }
+    }
+
+    #[cfg(test)]
+    pub fn known_count(&self) -> usize {
+        self.known.len()
     }
 
     /// Number of frames, missing ones included.

@@ -105,6 +105,28 @@ fn the_own_shot_is_opened_played_scrubbed_tuned_keyed_undone_and_exported_in_a_w
 }
 
 #[test]
+fn a_window_destroyed_from_outside_ends_the_program_in_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = json!([{"wait-for-frames": {"first": 0, "last": 2}}, {"wait": {"seconds": 60}}]);
+    let display = Display::start();
+    let mut command = preview(folder.path(), &script);
+    command.args(["--replay-in", "window"]).env("DISPLAY", &display.name);
+    command.env_remove("WAYLAND_DISPLAY").stderr(Stdio::piped());
+    let program = command.spawn().unwrap();
+    let closed = Command::new("sh")
+        .arg("-c")
+        .arg("xdotool search --sync --name ' - Shotsilk' windowclose")
+        .env("DISPLAY", &display.name)
+        .status();
+    assert!(closed.expect("xdotool closes windows: install the package xdotool").success());
+    let output = program.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("the window was destroyed from outside"), "{said}");
+    assert!(!said.contains("panicked"), "{said}");
+}
+
+#[test]
 fn real_keys_reach_the_program_and_closing_ends_it_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().join("report.json");

@@ -43,7 +43,7 @@ impl Previewer {
 
     /// Puts an edited camera into force, or says why it cannot be so.
     fn edit_camera_of(&mut self, edit: impl FnOnce(&Plan) -> Result<CameraEdit, CameraEditError>) {
-        let Some(plan) = self.plan.clone() else {
+        let Some(plan) = self.open.plan.clone() else {
             self.state.dragged_camera = None;
             let text = "this is a finished run: open its shot to move the camera";
             self.state.say(Level::Note, text);

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::{Occasion, Previewer};
+use super::Previewer;
+use super::parts::Occasion;
 use crate::output::{PendingFile, folder_of};
 use crate::own_shot::own_shot_parts;
 use crate::preview::action::Action;
@@ -22,9 +23,9 @@ impl Previewer {
             Action::Open { path } => self.open(Some(path)),
             Action::OpenOwn => self.open(None),
             Action::Reload => {
-                self.ask(self.source.clone(), Occasion::Change);
+                self.ask(self.open.source.clone(), Occasion::Change);
             }
-            Action::IgnoreChanges => self.ignored_files.append(&mut self.changed_files),
+            Action::IgnoreChanges => self.watched.ignored.append(&mut self.watched.changed),
             Action::Save => self.save(None),
             Action::SaveAs { path, overwrite } => {
                 if !overwrite && path.exists() && !self.is_open_shot(&path) {
@@ -40,7 +41,9 @@ impl Previewer {
     }
 
     fn is_open_shot(&self, path: &Path) -> bool {
-        let Source::Shot(Request { shot: Some(shot), .. }) = &self.source else { return false };
+        let Source::Shot(Request { shot: Some(shot), .. }) = &self.open.source else {
+            return false;
+        };
         fs::canonicalize(shot).is_ok_and(|shot| fs::canonicalize(path).is_ok_and(|p| p == shot))
     }
 
@@ -78,10 +81,10 @@ impl Previewer {
     }
 
     fn saved(&self, to: Option<PathBuf>) -> Result<(PathBuf, Request), String> {
-        let Source::Shot(request) = &self.source else {
+        let Source::Shot(request) = &self.open.source else {
             return Err("a finished run has no settings to save".to_owned());
         };
-        let mut edits = with_overrides(request, self.plan.as_deref())?;
+        let mut edits = with_overrides(request, self.open.plan.as_deref())?;
         for (path, value) in self.state.version.edits.iter() {
             edits.set(path, value.clone());
         }

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{Awaited, Effect, Occasion, Previewer, Work};
+use super::parts::{Awaited, Occasion, Work};
+use super::{Effect, Previewer};
 use crate::preview::Plan;
 use crate::preview::engine::{Job, JobId};
 use crate::preview::key::{FrameKey, step_keys};
@@ -24,20 +25,20 @@ impl Previewer {
         match event {
             Event::Planned { request, opened } => self.take_plan(request, opened),
             Event::FilesChanged { paths } => {
-                self.changed_files.extend(paths);
-                self.changed_files.sort();
-                self.changed_files.dedup();
+                self.watched.changed.extend(paths);
+                self.watched.changed.sort();
+                self.watched.changed.dedup();
             }
             Event::Simulated { job, key, frame } => self.take_frame(job, key, frame),
             Event::Finished { job } if self.is_in_work(job) => {
-                self.job = None;
+                self.making.job = None;
                 self.pursue();
             }
             Event::Finished { .. } => {}
             Event::Failed { job, frame, why } if self.is_in_work(job) => {
-                self.job = None;
+                self.making.job = None;
                 self.state.simulating = false;
-                let shown = self.scenery.as_ref().map_or(0, |s| s.shown(frame));
+                let shown = self.open.scenery.as_ref().map_or(0, |s| s.shown(frame));
                 let text = format!("the simulation stopped before frame {shown}: {why}");
                 self.state.say(Level::Error, text);
             }
@@ -45,10 +46,10 @@ impl Previewer {
             Event::Rival(event) => self.take_rival(*event),
             Event::Loaded { key, frame } => self.take_loaded(key, frame),
             Event::Found { keys } => self.take_found(keys),
-            Event::Kept { key } => self.store.note_on_disk(key),
+            Event::Kept { key } => self.frames.store.note_on_disk(key),
             Event::CannotKeep { why } => {
-                self.has_kept_failure = true;
-                self.store.note_disk_full();
+                self.frames.has_kept_failure = true;
+                self.frames.store.note_disk_full();
                 let text = format!("frames are not kept beyond the end of the program: {why}");
                 self.state.say(Level::Warning, text);
             }
@@ -56,17 +57,18 @@ impl Previewer {
     }
 
     fn take_plan(&mut self, request: u64, opened: Result<Opened, String>) {
-        let Some(awaited) = self.awaited.take_if(|awaited| awaited.request == request) else {
+        let Some(awaited) = self.planning.awaited.take_if(|awaited| awaited.request == request)
+        else {
             // A later one is on its way.
             return;
         };
         match opened {
             Ok(opened) => self.take_opened(opened, awaited),
             Err(why) => {
-                self.state.history.forget(&self.proved);
-                self.state.version = self.proved.clone();
+                self.state.history.forget(&self.planning.proved);
+                self.state.version = self.planning.proved.clone();
                 if awaited.occasion == Occasion::Opening {
-                    self.opening_failure = Some(why.clone());
+                    self.planning.opening_failure = Some(why.clone());
                 }
                 self.state.say(Level::Error, why);
                 self.pursue();
@@ -76,13 +78,13 @@ impl Previewer {
     }
 
     fn take_opened(&mut self, opened: Opened, awaited: Awaited) {
-        let is_new = awaited.occasion == Occasion::Opening || self.scenery.is_none();
-        let is_renamed = is_new || self.source != awaited.source;
-        self.source = awaited.source;
-        self.proved = self.state.version.clone();
-        self.opening_failure = None;
-        self.changed_files.clear();
-        if !std::mem::take(&mut self.ignored_files).is_empty() && !is_new {
+        let is_new = awaited.occasion == Occasion::Opening || self.open.scenery.is_none();
+        let is_renamed = is_new || self.open.source != awaited.source;
+        self.open.source = awaited.source;
+        self.planning.proved = self.state.version.clone();
+        self.planning.opening_failure = None;
+        self.watched.changed.clear();
+        if !std::mem::take(&mut self.watched.ignored).is_empty() && !is_new {
             let text = "files that had changed on disk were read again with this change";
             self.state.say(Level::Note, text);
         }
@@ -91,7 +93,7 @@ impl Previewer {
             Opened::Run(run) => self.show_run(run),
         }
         if is_renamed {
-            self.effects.push(Effect::Opened(self.source.clone()));
+            self.effects.push(Effect::Opened(self.open.source.clone()));
         }
     }
 
@@ -103,28 +105,29 @@ impl Previewer {
                 self.state.say(Level::Warning, warning.clone());
             }
         } else {
-            let before = self.scenery.as_ref().map_or(scenery.last, |s| s.last);
+            let before = self.open.scenery.as_ref().map_or(scenery.last, |s| s.last);
             self.state.playback = self.state.playback.with_last(before, scenery.last);
         }
-        self.scenery = Some(Arc::new(scenery));
-        self.plan = Some(plan);
-        self.run = None;
+        self.open.scenery = Some(Arc::new(scenery));
+        self.open.plan = Some(plan);
+        self.open.run = None;
         self.refresh();
         self.end_stale_job();
-        let missing = self.timeline.wanted_keys().filter(|&key| !self.store.has(key)).collect();
+        let missing =
+            self.frames.timeline.wanted_keys().filter(|&key| !self.frames.store.has(key)).collect();
         // Nothing is simulated that lies on disk: the answer sets the engine to work.
-        self.keeper.look(missing);
+        self.frames.keeper.look(missing);
         self.follow_rival();
     }
 
     fn show_run(&mut self, run: Arc<RunReader>) {
         let scenery = Scenery::of_run(&run);
         self.forget_what_was_open(scenery.last);
-        self.timeline =
+        self.frames.timeline =
             Timeline::of_run(scenery.last, run.frames(), &run.info().input_hash, &identity(&run));
-        self.scenery = Some(Arc::new(scenery));
-        self.plan = None;
-        self.run = Some(run);
+        self.open.scenery = Some(Arc::new(scenery));
+        self.open.plan = None;
+        self.open.run = Some(run);
         self.refresh_shown();
         self.read_ahead();
     }
@@ -138,28 +141,32 @@ impl Previewer {
         self.state.overwriting = None;
         self.state.witness = None;
         self.state.dragged_camera = None;
-        self.timeline = Timeline::default();
-        self.shown = None;
-        self.shown_of_a = None;
-        self.played_from = None;
-        self.loading.clear();
+        self.frames.timeline = Timeline::default();
+        self.showing.frame = None;
+        self.showing.of_a = None;
+        self.showing.played_from = None;
+        self.frames.loading.clear();
     }
 
     /// Holds the timeline against the plan, after either or the store has changed.
     pub(super) fn refresh(&mut self) {
-        if let Some(plan) = &self.plan {
-            self.timeline.follow(plan, self.state.version.anchor.as_ref(), &self.store);
+        if let Some(plan) = &self.open.plan {
+            self.frames.timeline.follow(
+                plan,
+                self.state.version.anchor.as_ref(),
+                &self.frames.store,
+            );
         }
         self.refresh_shown();
     }
 
     /// Sets the engine to work on the first frame that is wanted and not there.
     pub(super) fn pursue(&mut self) {
-        if !self.state.simulating || self.job.is_some() || self.awaited.is_some() {
+        if !self.state.simulating || self.making.job.is_some() || self.planning.awaited.is_some() {
             return;
         }
-        let Some(plan) = self.plan.clone() else { return };
-        let Some((first, frames)) = self.timeline.gap(&self.store) else { return };
+        let Some(plan) = self.open.plan.clone() else { return };
+        let Some((first, frames)) = self.frames.timeline.gap(&self.frames.store) else { return };
         let start = match first.checked_sub(1) {
             None => None,
             Some(before) => match self.start_frame(before) {
@@ -171,17 +178,17 @@ impl Previewer {
         let scene = plan.requested.scene.clone();
         let keys = frames.clone();
         let job = Job { scene, settings: plan.settings(), start, frames };
-        self.job = Some(Work { id: self.engine.begin(job), keys });
+        self.making.job = Some(Work { id: self.making.engine.begin(job), keys });
     }
 
     fn is_in_work(&self, job: JobId) -> bool {
-        self.job.as_ref().is_some_and(|work| work.id == job)
+        self.making.job.as_ref().is_some_and(|work| work.id == job)
     }
 
     /// Ends a job that does not make just what is to be made next.
     fn end_stale_job(&mut self) {
-        let Some(work) = &self.job else { return };
-        let gap = self.timeline.gap(&self.store);
+        let Some(work) = &self.making.job else { return };
+        let gap = self.frames.timeline.gap(&self.frames.store);
         let wanted = gap.map_or(Vec::new(), |(_, frames)| frames);
         let is_wanted = !wanted.is_empty()
             && work.keys.len() >= wanted.len()
@@ -193,15 +200,16 @@ impl Previewer {
 
     /// Ends the job in work within a step.
     pub(super) fn halt(&mut self) {
-        self.engine.stop();
-        self.job = None;
+        self.making.engine.stop();
+        self.making.job = None;
     }
 
     /// The frame to go on from, if it is at hand.
     fn start_frame(&mut self, number: u32) -> Option<Arc<Frame>> {
         let anchor = self.state.version.anchor.as_ref().filter(|anchor| anchor.frame == number);
-        let key = anchor.map(|anchor| anchor.key).or_else(|| self.timeline.wanted(number))?;
-        match self.store.find(key) {
+        let key =
+            anchor.map(|anchor| anchor.key).or_else(|| self.frames.timeline.wanted(number))?;
+        match self.frames.store.find(key) {
             Place::Memory(frame) => Some(frame),
             Place::Disk => {
                 self.load(key, number);
@@ -228,20 +236,20 @@ impl Previewer {
     }
 
     fn take_frame(&mut self, job: JobId, key: FrameKey, frame: Arc<Frame>) {
-        self.simulated += 1;
-        let shown = self.scenery.as_ref().map_or(0, |s| s.shown(frame.number));
+        self.making.simulated += 1;
+        let shown = self.open.scenery.as_ref().map_or(0, |s| s.shown(frame.number));
         for warning in &frame.report.warnings {
             self.state.say(Level::Warning, format!("frame {shown}: {warning}"));
         }
-        let hash = self.plan.as_ref().map_or("", |plan| plan.settings_hash()).to_owned();
+        let hash = self.open.plan.as_ref().map_or("", |plan| plan.settings_hash()).to_owned();
         let (number, cost) = (frame.number, Cost::of(&frame));
         self.take_in(key, frame.clone());
-        if self.cache.is_some() && !self.has_kept_failure {
-            self.store.note_coming(key);
-            self.keeper.keep(key, frame);
+        if self.frames.cache.is_some() && !self.frames.has_kept_failure {
+            self.frames.store.note_coming(key);
+            self.frames.keeper.keep(key, frame);
         }
-        self.timeline.put(number, key, &hash, cost);
-        self.timeline.note_cost(key, cost);
+        self.frames.timeline.put(number, key, &hash, cost);
+        self.frames.timeline.note_cost(key, cost);
         if !self.is_in_work(job) {
             // A plan that came meanwhile may want just this frame.
             self.pursue();
@@ -251,14 +259,14 @@ impl Previewer {
 
     /// Into the store; what this pushes out and is nowhere else is gone.
     fn take_in(&mut self, key: FrameKey, frame: Arc<Frame>) {
-        let lost = self.store.insert(key, frame);
+        let lost = self.frames.store.insert(key, frame);
         if lost.is_empty() {
             return;
         }
-        lost.iter().for_each(|&key| self.timeline.forget(key));
+        lost.iter().for_each(|&key| self.frames.timeline.forget(key));
         // Made again, they would push out others, without end.
         self.simulate(false);
-        let megabytes = self.store.budget() >> 20;
+        let megabytes = self.frames.store.budget() >> 20;
         let text = format!(
             "the frames do not fit into {megabytes} MB of memory and cannot be kept on disk: the \
              simulation is halted"
@@ -267,29 +275,29 @@ impl Previewer {
     }
 
     fn take_loaded(&mut self, key: FrameKey, frame: Result<Arc<Frame>, String>) {
-        self.loading.remove(&key);
+        self.frames.loading.remove(&key);
         match frame {
             Ok(frame) => {
-                self.timeline.note_cost(key, Cost::of(&frame));
-                self.store.note_on_disk(key);
+                self.frames.timeline.note_cost(key, Cost::of(&frame));
+                self.frames.store.note_on_disk(key);
                 self.take_in(key, frame);
             }
             Err(why) => {
-                self.store.note_lost(key);
-                self.timeline.forget(key);
+                self.frames.store.note_lost(key);
+                self.frames.timeline.forget(key);
                 self.state.say(Level::Warning, format!("{why}: the frame is made again"));
                 self.refresh();
             }
         }
         self.refresh_shown();
         self.pursue();
-        if self.loading.is_empty() {
+        if self.frames.loading.is_empty() {
             self.read_ahead();
         }
     }
 
     fn take_found(&mut self, keys: Vec<FrameKey>) {
-        keys.iter().for_each(|&key| self.store.note_on_disk(key));
+        keys.iter().for_each(|&key| self.frames.store.note_on_disk(key));
         self.refresh();
         self.end_stale_job();
         self.pursue();
@@ -298,34 +306,34 @@ impl Previewer {
 
     /// Asks for the next frame that is on disk alone, while there is room.
     fn read_ahead(&mut self) {
-        let room = (self.store.budget() as f64 * READ_AHEAD_SHARE) as u64;
-        if self.store.used() >= room {
+        let room = (self.frames.store.budget() as f64 * READ_AHEAD_SHARE) as u64;
+        if self.frames.store.used() >= room {
             return;
         }
         let unread = |&number: &u32| {
-            let slot = self.timeline.slot(number);
-            slot.is_some_and(|slot| !self.store.is_in_memory(slot.key))
+            let slot = self.frames.timeline.slot(number);
+            slot.is_some_and(|slot| !self.frames.store.is_in_memory(slot.key))
         };
-        if let Some(number) = (0..self.timeline.len() as u32).find(unread) {
-            let key = self.timeline.slot(number).expect("found just now").key;
+        if let Some(number) = (0..self.frames.timeline.len() as u32).find(unread) {
+            let key = self.frames.timeline.slot(number).expect("found just now").key;
             self.load(key, number);
         }
     }
 
     /// Has a frame read, once.
     pub(super) fn load(&mut self, key: FrameKey, number: u32) {
-        if !self.loading.insert(key) {
+        if !self.frames.loading.insert(key) {
             return;
         }
-        match &self.run {
-            Some(run) => self.keeper.load_of_run(key, run.clone(), number),
-            None => self.keeper.load(key),
+        match &self.open.run {
+            Some(run) => self.frames.keeper.load_of_run(key, run.clone(), number),
+            None => self.frames.keeper.load(key),
         }
     }
 
     pub(super) fn set_memory(&mut self, megabytes: u64) {
-        let lost = self.store.set_budget(megabytes.max(1) << 20);
-        lost.iter().for_each(|&key| self.timeline.forget(key));
+        let lost = self.frames.store.set_budget(megabytes.max(1) << 20);
+        lost.iter().for_each(|&key| self.frames.timeline.forget(key));
         self.refresh_shown();
     }
 
@@ -337,7 +345,7 @@ impl Previewer {
 
     /// Costs of other settings are forgotten; those that are asked for are measured.
     fn follow_rival(&mut self) {
-        let Some(plan) = self.plan.clone() else { return };
+        let Some(plan) = self.open.plan.clone() else { return };
         let mut requested = plan.requested.clone();
         requested.settings.sizing = SizingMode::Adaptive;
         let after = |parent: &mut Option<FrameKey>, step| {

@@ -6,6 +6,7 @@
 mod camera;
 mod files;
 mod frames;
+mod parts;
 mod settings;
 mod time;
 
@@ -16,10 +17,9 @@ use std::sync::mpsc::Receiver;
 
 use super::Plan;
 use super::action::{Action, Export};
-use super::engine::{Engine, JobId};
+use super::engine::Engine;
 use super::history::Version;
 use super::keeper::Keeper;
-use super::key::FrameKey;
 use super::message::{Event, Outbox, Wake};
 use super::navigate::EyeAndTarget;
 use super::planner::{Planner, Source};
@@ -28,10 +28,11 @@ use super::scenery::Scenery;
 use super::state::{Level, Look, Overwriting, State};
 use super::store::FrameStore;
 use super::timeline::{Cost, Timeline};
-use crate::run::{RunInfo, RunReader};
-use crate::sim::Frame;
+use crate::run::RunInfo;
 
 pub use time::Shown;
+
+use parts::{Deferred, Frames, Making, Occasion, Open, Planning, Rival, Showing, Watched};
 
 /// How a previewer begins.
 pub struct Start {
@@ -63,81 +64,17 @@ pub enum Effect {
 /// See the module.
 pub struct Previewer {
     state: State,
-    source: Source,
-    scenery: Option<Arc<Scenery>>,
-    plan: Option<Arc<Plan>>,
-    run: Option<Arc<RunReader>>,
-    timeline: Timeline,
-    store: FrameStore,
-
-    planner: Planner,
-    /// The plan that is awaited, and for what.
-    awaited: Option<Awaited>,
-    /// Why what was to be opened last could not be.
-    opening_failure: Option<String>,
-    /// The version of the plan that is in force: what is returned to if another cannot be.
-    proved: Version,
-    /// What has to wait for a plan, and where the user was when asking for it.
-    deferred: VecDeque<Deferred>,
-    engine: Engine,
-    job: Option<Work>,
-    keeper: Keeper,
-    cache: Option<PathBuf>,
-    loading: HashSet<FrameKey>,
+    open: Open,
+    planning: Planning,
+    frames: Frames,
+    making: Making,
     rival: Rival,
+    showing: Showing,
+    watched: Watched,
+    /// What the threads have done.
     events: Receiver<Event>,
-
-    shown: Option<Shown>,
-    shown_of_a: Option<(u32, Arc<Frame>)>,
-    /// When playback began, and at which frame.
-    played_from: Option<(f64, u32)>,
+    /// What is asked of others.
     effects: Vec<Effect>,
-    /// Files that have changed on disk since they were read.
-    changed_files: Vec<PathBuf>,
-    /// Those of them that the user would not have read again.
-    ignored_files: Vec<PathBuf>,
-    /// Counts the frames that were simulated.
-    simulated: u64,
-    has_kept_failure: bool,
-}
-
-/// What the engine has been told to make.
-struct Work {
-    id: JobId,
-    keys: Vec<FrameKey>,
-}
-
-/// What a plan was asked for.
-struct Awaited {
-    request: u64,
-    source: Source,
-    occasion: Occasion,
-}
-
-/// Why a plan is made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Occasion {
-    /// Something else is opened.
-    Opening,
-    /// What is open has been changed, read again or saved.
-    Change,
-}
-
-/// An action that builds upon the plan in force, asked for while another is awaited.
-struct Deferred {
-    action: Action,
-    current: u32,
-    dragged_camera: Option<EyeAndTarget>,
-}
-
-/// A second simulation of the shot, whoever looks: for its costs alone.
-struct Rival {
-    engine: Engine,
-    job: Option<JobId>,
-    costs: Vec<Option<Cost>>,
-    /// Of the frames that the costs are those of.
-    keys: Vec<FrameKey>,
-    on: bool,
 }
 
 impl Previewer {
@@ -146,22 +83,27 @@ impl Previewer {
         let (outbox, events) = Outbox::new(start.wake);
         let mut previewer = Self {
             state: State { look: start.look, simulating: start.simulating, ..State::default() },
-            source: start.source.clone(),
-            scenery: None,
-            plan: None,
-            run: None,
-            timeline: Timeline::default(),
-            store: FrameStore::new(start.memory),
-            planner: Planner::start(outbox.clone()),
-            awaited: None,
-            opening_failure: None,
-            proved: Version::default(),
-            deferred: VecDeque::new(),
-            engine: Engine::start("simulation", outbox.clone()),
-            job: None,
-            keeper: Keeper::start(start.cache.clone(), outbox.clone()),
-            cache: start.cache,
-            loading: HashSet::new(),
+            open: Open { source: start.source.clone(), scenery: None, plan: None, run: None },
+            planning: Planning {
+                planner: Planner::start(outbox.clone()),
+                awaited: None,
+                opening_failure: None,
+                proved: Version::default(),
+                deferred: VecDeque::new(),
+            },
+            frames: Frames {
+                timeline: Timeline::default(),
+                store: FrameStore::new(start.memory),
+                keeper: Keeper::start(start.cache.clone(), outbox.clone()),
+                cache: start.cache,
+                loading: HashSet::new(),
+                has_kept_failure: false,
+            },
+            making: Making {
+                engine: Engine::start("simulation", outbox.clone()),
+                job: None,
+                simulated: 0,
+            },
             rival: Rival {
                 engine: Engine::start("adaptive", outbox.for_rival()),
                 job: None,
@@ -169,15 +111,10 @@ impl Previewer {
                 keys: Vec::new(),
                 on: false,
             },
+            showing: Showing::default(),
+            watched: Watched::default(),
             events,
-            shown: None,
-            shown_of_a: None,
-            played_from: None,
             effects: Vec::new(),
-            changed_files: Vec::new(),
-            ignored_files: Vec::new(),
-            simulated: 0,
-            has_kept_failure: false,
         };
         previewer.ask(start.source, Occasion::Opening);
         previewer
@@ -186,10 +123,10 @@ impl Previewer {
     /// Does what a user asks. Returns at once; what takes time is done by a thread, and what builds upon
     /// a plan that is not there yet is done when it is.
     pub fn act(&mut self, action: Action) {
-        if self.awaited.is_some() && action.needs_the_plan() {
+        if self.planning.awaited.is_some() && action.needs_the_plan() {
             let (current, dragged_camera) =
                 (self.state.playback.current, self.state.dragged_camera);
-            self.deferred.push_back(Deferred { action, current, dragged_camera });
+            self.planning.deferred.push_back(Deferred { action, current, dragged_camera });
             return;
         }
         if action.gives_up_edits() && !self.state.version.edits.is_empty() {
@@ -201,8 +138,8 @@ impl Previewer {
 
     /// What was deferred, until one of it asks for a plan again.
     fn act_on_deferred(&mut self) {
-        while self.awaited.is_none()
-            && let Some(deferred) = self.deferred.pop_front()
+        while self.planning.awaited.is_none()
+            && let Some(deferred) = self.planning.deferred.pop_front()
         {
             let now = (self.state.playback.current, self.state.dragged_camera);
             (self.state.playback.current, self.state.dragged_camera) =
@@ -311,55 +248,55 @@ impl Previewer {
 
     /// `None` while the first shot is being opened, or could not be.
     pub fn scenery(&self) -> Option<&Arc<Scenery>> {
-        self.scenery.as_ref()
+        self.open.scenery.as_ref()
     }
 
     /// `None` for a run, which nothing can be changed about.
     pub fn plan(&self) -> Option<&Arc<Plan>> {
-        self.plan.as_ref()
+        self.open.plan.as_ref()
     }
 
     pub fn source(&self) -> &Source {
-        &self.source
+        &self.open.source
     }
 
     pub fn timeline(&self) -> &Timeline {
-        &self.timeline
+        &self.frames.timeline
     }
 
     pub fn store(&self) -> &FrameStore {
-        &self.store
+        &self.frames.store
     }
 
     /// Whether frames are being made.
     pub fn is_working(&self) -> bool {
-        self.job.is_some()
+        self.making.job.is_some()
     }
 
     /// The frame that is being made.
     pub fn in_work(&self) -> Option<u32> {
-        self.job.as_ref()?;
-        self.timeline.first_gap(&self.store)
+        self.making.job.as_ref()?;
+        self.frames.timeline.first_gap(&self.frames.store)
     }
 
     /// Whether something is being opened.
     pub fn is_opening(&self) -> bool {
-        self.awaited.is_some()
+        self.planning.awaited.is_some()
     }
 
     /// Why what was to be opened last could not be; `None` if it is open, or still being opened.
     pub fn opening_failure(&self) -> Option<&str> {
-        self.opening_failure.as_deref()
+        self.planning.opening_failure.as_deref()
     }
 
     /// Whether frames are being read.
     pub fn is_loading(&self) -> bool {
-        !self.loading.is_empty()
+        !self.frames.loading.is_empty()
     }
 
     /// Frames simulated since the program began.
     pub fn simulated(&self) -> u64 {
-        self.simulated
+        self.making.simulated
     }
 
     /// Costs of the adaptive run, by frame; empty unless asked for.
@@ -374,22 +311,22 @@ impl Previewer {
 
     /// Files that have changed on disk since they were read.
     pub fn changed_files(&self) -> &[PathBuf] {
-        &self.changed_files
+        &self.watched.changed
     }
 
     /// For threads that may wait: the frames that the timeline has now.
     pub fn frame_reader(&self) -> FrameReader {
         FrameReader {
-            held: self.store.held(self.timeline.keys().into_iter().flatten()),
-            folder: self.cache.clone(),
-            run: self.run.clone(),
+            held: self.frames.store.held(self.frames.timeline.keys().into_iter().flatten()),
+            folder: self.frames.cache.clone(),
+            run: self.open.run.clone(),
         }
     }
 
     /// How a run of what is open begins.
     pub fn run_info(&self) -> Option<RunInfo> {
-        let of_run = || self.run.as_ref().map(|run| run.info().clone());
-        self.plan.as_ref().map(|plan| plan.requested.info.clone()).or_else(of_run)
+        let of_run = || self.open.run.as_ref().map(|run| run.info().clone());
+        self.open.plan.as_ref().map(|plan| plan.requested.info.clone()).or_else(of_run)
     }
 
     /// Has the user asked before files are written over; `action` is what then does so.

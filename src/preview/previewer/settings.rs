@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{Awaited, Occasion, Previewer};
+use super::Previewer;
+use super::parts::{Awaited, Occasion};
 use crate::preview::Edits;
 use crate::preview::action::{Action, Reach};
 use crate::preview::history::Version;
@@ -72,9 +73,10 @@ impl Previewer {
     /// The frame that is shown, or the last before it that there is. Frame 0 is made by the settings
     /// alone, so there is nothing to go on from.
     fn anchor_here(&self) -> Option<Anchor> {
-        let frame = self.timeline.nearest_before(self.state.playback.current).filter(|&f| f > 0)?;
-        let slot = self.timeline.slot(frame)?;
-        let keys = self.timeline.keys().into_iter().take(frame as usize + 1).collect();
+        let frame =
+            self.frames.timeline.nearest_before(self.state.playback.current).filter(|&f| f > 0)?;
+        let slot = self.frames.timeline.slot(frame)?;
+        let keys = self.frames.timeline.keys().into_iter().take(frame as usize + 1).collect();
         Some(Anchor { frame, key: slot.key, keys: Arc::new(keys) })
     }
 
@@ -83,7 +85,7 @@ impl Previewer {
         if version == self.state.version {
             return;
         }
-        if self.plan.is_none() && self.awaited.is_none() {
+        if self.open.plan.is_none() && self.planning.awaited.is_none() {
             let text = "this is a finished run: open its shot to change settings";
             self.state.say(Level::Note, text);
             return;
@@ -97,33 +99,33 @@ impl Previewer {
         self.state.version = version;
         self.state.dragged_camera = None;
         // A change while something is opened is one of what is being opened.
-        match &self.awaited {
+        match &self.planning.awaited {
             Some(Awaited { source, occasion, .. }) => self.ask(source.clone(), *occasion),
-            None => self.ask(self.source.clone(), Occasion::Change),
+            None => self.ask(self.open.source.clone(), Occasion::Change),
         }
     }
 
     /// Opens something else, with no edits yet.
     pub(super) fn open_with(&mut self, source: Source) {
         self.state.version = Version::default();
-        self.opening_failure = None;
+        self.planning.opening_failure = None;
         self.ask(source, Occasion::Opening);
     }
 
     pub(super) fn ask(&mut self, source: Source, occasion: Occasion) {
-        let request = self.planner.open(source.clone(), self.state.version.edits.clone());
-        self.awaited = Some(Awaited { request, source, occasion });
+        let request = self.planning.planner.open(source.clone(), self.state.version.edits.clone());
+        self.planning.awaited = Some(Awaited { request, source, occasion });
     }
 
     fn keep_as_a(&mut self) {
-        let settings_hash = self.scenery.as_ref().map(|s| s.settings_hash.clone());
+        let settings_hash = self.open.scenery.as_ref().map(|s| s.settings_hash.clone());
         self.state.a = Some(Remembered {
             version: self.state.version.clone(),
-            keys: self.timeline.keys(),
-            camera: self.scenery.as_ref().and_then(|scenery| scenery.camera.clone()),
+            keys: self.frames.timeline.keys(),
+            camera: self.open.scenery.as_ref().and_then(|scenery| scenery.camera.clone()),
             settings_hash: settings_hash.unwrap_or_default(),
         });
-        self.shown_of_a = None;
+        self.showing.of_a = None;
         self.refresh_shown();
     }
 }

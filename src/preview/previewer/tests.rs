@@ -23,7 +23,7 @@ fn a_moved_camera_key_has_only_the_frames_computed_again_that_can_see_it_with_th
     let mut p = stage.start(true);
     p.until_done();
     assert_eq!(p.0.simulated(), u64::from(LAST) + 1);
-    let before = p.0.timeline.keys();
+    let before = p.0.timeline().keys();
     p.act(Action::GoTo { frame: 8 });
     p.act(Action::MoveCamera {
         eye: DVec3::new(0.5, -3.0, 0.4),
@@ -33,7 +33,7 @@ fn a_moved_camera_key_has_only_the_frames_computed_again_that_can_see_it_with_th
     p.until_done();
     // The stretch from the cut at 4 moves from frame 5 on, which a window of 2 frames sees from 4 on:
     // what is 2 ahead weighs nothing.
-    let kept = p.0.timeline.keys().iter().zip(&before).take_while(|(a, b)| a == b).count();
+    let kept = p.0.timeline().keys().iter().zip(&before).take_while(|(a, b)| a == b).count();
     assert_eq!(kept, 4);
     assert_eq!(p.0.simulated(), u64::from(LAST) + 1 + u64::from(LAST) + 1 - 4);
     assert_eq!(p.statuses(), "r".repeat(LAST as usize + 1));
@@ -42,7 +42,7 @@ fn a_moved_camera_key_has_only_the_frames_computed_again_that_can_see_it_with_th
     // Taken back, nothing is computed at all.
     let so_far = p.0.simulated();
     p.act(Action::Undo);
-    p.until("the old frames", |p| !p.is_opening() && p.timeline.keys() == before);
+    p.until("the old frames", |p| !p.is_opening() && p.timeline().keys() == before);
     assert_eq!(p.0.simulated(), so_far);
 }
 
@@ -55,23 +55,23 @@ fn a_setting_changed_here_leaves_what_was_before_and_marks_what_comes_as_mixed()
     p.act(Action::GoTo { frame: 6 });
     p.act(windy(3.0));
     p.until("the frames after it", |p| {
-        !p.is_opening() && (7..=LAST).all(|n| p.timeline.status(n) == FrameStatus::Mixed)
+        !p.is_opening() && (7..=LAST).all(|n| p.timeline().status(n) == FrameStatus::Mixed)
     });
     assert_eq!(p.statuses(), "sssssssmmmmmm");
     assert_ne!(bits(&p.frame(LAST)), before);
-    let (six, seven) = (p.0.timeline.slot(6).unwrap(), p.0.timeline.slot(7).unwrap());
+    let (six, seven) = (p.0.timeline().slot(6).unwrap(), p.0.timeline().slot(7).unwrap());
     assert_ne!(six.settings_hash, seven.settings_hash);
-    assert!(!p.0.timeline.is_clean(0, LAST));
+    assert!(!p.0.timeline().is_clean(0, LAST));
     // A clean run of the same settings is another.
     p.act(Action::ReRun);
-    p.until("a clean run", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    p.until("a clean run", |p| !p.is_opening() && p.timeline().is_clean(0, LAST));
     let plan = p.0.plan().unwrap().clone();
     assert_eq!(bits(&p.frame(LAST)), bits(&straight(&plan)));
     // Undone twice, the first frames are back without a step.
     let so_far = p.0.simulated();
     p.act(Action::Undo);
     p.act(Action::Undo);
-    p.until("the first run", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    p.until("the first run", |p| !p.is_opening() && p.timeline().is_clean(0, LAST));
     assert_eq!((p.0.simulated(), bits(&p.frame(LAST))), (so_far, before));
 }
 
@@ -84,18 +84,18 @@ fn undo_gives_the_frames_before_the_anchor_back_as_well() {
     p.act(Action::GoTo { frame: 6 });
     p.act(windy(3.0));
     p.until("the frames after it", |p| {
-        !p.is_opening() && (7..=LAST).all(|n| p.timeline.status(n) == FrameStatus::Mixed)
+        !p.is_opening() && (7..=LAST).all(|n| p.timeline().status(n) == FrameStatus::Mixed)
     });
-    let mixed = p.0.timeline.keys();
+    let mixed = p.0.timeline().keys();
     p.act(Action::ReRun);
-    p.until("a clean run", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    p.until("a clean run", |p| !p.is_opening() && p.timeline().is_clean(0, LAST));
     assert_ne!(bits(&p.frame(3)), first);
     let simulated = p.0.simulated();
     p.act(Action::Undo);
-    p.until("the mixed frames", |p| !p.is_opening() && p.timeline.keys() == mixed);
+    p.until("the mixed frames", |p| !p.is_opening() && p.timeline().keys() == mixed);
     assert_eq!(p.statuses(), "sssssssmmmmmm");
     assert_eq!((bits(&p.frame(3)), p.0.simulated()), (first, simulated));
-    let hashes = [6, 7].map(|n| p.0.timeline.slot(n).unwrap().settings_hash.clone());
+    let hashes = [6, 7].map(|n| p.0.timeline().slot(n).unwrap().settings_hash.clone());
     assert_ne!(hashes[0], hashes[1]);
 }
 
@@ -108,7 +108,7 @@ fn keys_set_faster_than_plans_are_made_are_all_set() {
         p.act(Action::GoTo { frame });
         p.act(Action::SetKey);
     }
-    p.until("all keys", |p| !p.is_opening() && p.deferred.is_empty());
+    p.until("all keys", |p| !p.is_opening() && p.planning.deferred.is_empty());
     let path = p.0.scenery().unwrap().camera.clone().unwrap();
     assert_eq!(path.key_frames(), [0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0]);
 }
@@ -138,7 +138,22 @@ fn without_a_disk_the_memory_budget_holds_and_the_simulation_halts() {
     let mut p = stage.open_with(Source::Shot(stage.request()), true, None, 20_000);
     p.until("the halt", |p| !p.state.simulating);
     assert!(p.0.state.messages.last().unwrap().text.contains("do not fit"));
-    assert!(p.0.store.used() <= 20_000 || p.0.store.len() == 1);
+    assert!(p.0.store().used() <= 20_000 || p.0.store().len() == 1);
+}
+
+#[test]
+fn of_frames_that_are_gone_nothing_is_remembered() {
+    let stage = Stage::set();
+    let mut p = stage.open_with(Source::Shot(stage.request()), true, None, 20_000);
+    for wind in [1.0, 2.0, 3.0, 4.0] {
+        p.until("the halt", |p| !p.state.simulating);
+        p.act(windy(wind));
+        p.act(Action::SetReach { reach: Reach::FromStart });
+        p.until_opened();
+        let known = p.0.timeline().known_count();
+        assert!(known <= p.0.store().len(), "{known}");
+        p.act(Action::Simulate { on: true });
+    }
 }
 
 #[test]
@@ -149,7 +164,7 @@ fn a_setting_changed_from_the_start_makes_everything_anew() {
     p.act(Action::SetReach { reach: Reach::FromStart });
     p.act(Action::GoTo { frame: 6 });
     p.act(windy(3.0));
-    p.until("a clean run", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    p.until("a clean run", |p| !p.is_opening() && p.timeline().is_clean(0, LAST));
     assert_eq!(p.0.simulated(), 2 * (u64::from(LAST) + 1));
 }
 
@@ -160,7 +175,7 @@ fn frames_survive_a_restart_and_are_not_computed_again() {
     p.until_done();
     let last = bits(&p.frame(LAST));
     p.until("all on disk", |p| {
-        p.timeline.keys().iter().flatten().all(|&key| p.store.is_on_disk(key))
+        p.timeline().keys().iter().flatten().all(|&key| p.store().is_on_disk(key))
     });
     drop(p);
     let mut p = stage.start(true);
@@ -175,13 +190,13 @@ fn memory_for_two_frames_is_enough_to_scrub_all() {
     let mut p = stage.start(true);
     p.until_done();
     p.until("all on disk", |p| {
-        p.timeline.keys().iter().flatten().all(|&key| p.store.is_on_disk(key))
+        p.timeline().keys().iter().flatten().all(|&key| p.store().is_on_disk(key))
     });
-    let budget = 2 * p.0.store.used() / (u64::from(LAST) + 1);
-    let _ = p.0.store.set_budget(budget);
+    let budget = 2 * p.0.store().used() / (u64::from(LAST) + 1);
+    let _ = p.0.frames.store.set_budget(budget);
     for number in [0, 11, 3, 7, 12, 1] {
         assert_eq!(p.frame(number).number, number);
-        assert!(p.0.store.used() <= budget);
+        assert!(p.0.store().used() <= budget);
     }
     assert_eq!(p.0.simulated(), u64::from(LAST) + 1);
 }
@@ -203,11 +218,11 @@ fn a_file_that_is_no_shot_leaves_what_is_open() {
     let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
-    let keys = p.0.timeline.keys();
+    let keys = p.0.timeline().keys();
     p.act(Action::Open { path: stage.folder.path().join("sheet.obj") });
     p.until_refused();
     assert_eq!(p.0.state.messages.last().unwrap().level, Level::Error);
-    assert_eq!(p.0.timeline.keys(), keys);
+    assert_eq!(p.0.timeline().keys(), keys);
     assert!(matches!(p.0.source(), Source::Shot(request) if request.shot == Some(stage.shot())));
 }
 
@@ -240,14 +255,14 @@ fn a_saved_shot_keeps_its_comments_and_its_frames() {
     p.until_done();
     p.act(Action::SetReach { reach: Reach::FromStart });
     p.act(windy(2.5));
-    p.until("a clean run", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
-    let (keys, simulated) = (p.0.timeline.keys(), p.0.simulated());
+    p.until("a clean run", |p| !p.is_opening() && p.timeline().is_clean(0, LAST));
+    let (keys, simulated) = (p.0.timeline().keys(), p.0.simulated());
     p.act(Action::Save);
     p.until("the saved shot", |p| !p.is_opening());
     let text = fs::read_to_string(stage.shot()).unwrap();
     assert!(text.contains("// As short as can be.") && text.contains("2.5"), "{text}");
     assert!(p.0.state.version.edits.is_empty());
-    assert_eq!((p.0.timeline.keys(), p.0.simulated()), (keys, simulated));
+    assert_eq!((p.0.timeline().keys(), p.0.simulated()), (keys, simulated));
 }
 
 #[test]
@@ -297,14 +312,14 @@ fn the_programs_own_shot_is_saved_as_a_copy_with_its_files() {
     p.until_opened();
     p.act(windy(2.5));
     p.until_opened();
-    let keys = p.0.timeline.wanted_keys().collect::<Vec<_>>();
+    let keys = p.0.timeline().wanted_keys().collect::<Vec<_>>();
     let to = stage.folder.path().join("mine/shot.json");
     fs::create_dir(to.parent().unwrap()).unwrap();
     p.act(Action::SaveAs { path: to.clone(), overwrite: false });
     p.until_opened();
     assert!(matches!(p.0.source(), Source::Shot(request) if request.shot == Some(to.clone())));
     // The same shot elsewhere has the same frames.
-    assert_eq!(p.0.timeline.wanted_keys().collect::<Vec<_>>(), keys);
+    assert_eq!(p.0.timeline().wanted_keys().collect::<Vec<_>>(), keys);
 }
 
 #[test]
@@ -352,7 +367,7 @@ fn playing_keeps_the_rate_and_drops_frames_rather_than_time() {
 fn playing_waits_for_frames_that_are_not_there_yet() {
     let stage = Stage::set();
     let mut p = stage.start(true);
-    p.until("some frames", |p| p.timeline.slot(4).is_some());
+    p.until("some frames", |p| p.timeline().slot(4).is_some());
     p.act(Action::Simulate { on: false });
     p.act(Action::GoTo { frame: 0 });
     p.act(Action::Play);
@@ -361,7 +376,7 @@ fn playing_waits_for_frames_that_are_not_there_yet() {
     let current = p.0.state.playback.current;
     assert!(current >= 4 && p.0.state.playback.playing);
     if current < LAST {
-        assert_eq!(p.0.timeline.status(current + 1), FrameStatus::Missing);
+        assert_eq!(p.0.timeline().status(current + 1), FrameStatus::Missing);
     }
 }
 
@@ -374,14 +389,14 @@ fn a_and_b_are_shown_together_and_change_places() {
     p.act(Action::KeepAsA);
     p.act(Action::SetReach { reach: Reach::FromStart });
     p.act(windy(4.0));
-    p.until("b", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    p.until("b", |p| !p.is_opening() && p.timeline().is_clean(0, LAST));
     p.act(Action::Compare { wipe: Some(0.5) });
     p.until("both", |p| p.shown_of_a().is_some());
     assert_eq!(bits(p.0.shown_of_a().unwrap()), a);
     let b = bits(&p.frame(10));
     assert_ne!(a, b);
     p.act(Action::SwapAAndB);
-    p.until("the change of places", |p| !p.is_opening() && p.timeline.is_clean(0, LAST));
+    p.until("the change of places", |p| !p.is_opening() && p.timeline().is_clean(0, LAST));
     assert_eq!(bits(&p.frame(10)), a);
     p.until("both", |p| p.shown_of_a().is_some());
     assert_eq!(bits(p.0.shown_of_a().unwrap()), b);
@@ -392,19 +407,19 @@ fn the_adaptive_run_counts_costs_and_keeps_no_frames() {
     let stage = Stage::set();
     let mut p = stage.start(true);
     p.until_done();
-    let (used, simulated) = (p.0.store.used(), p.0.simulated());
+    let (used, simulated) = (p.0.store().used(), p.0.simulated());
     p.act(Action::MeasureAdaptive { on: true });
     p.until("all costs", |p| {
         p.rival_costs().len() == LAST as usize + 1 && p.rival_costs().iter().all(Option::is_some)
     });
-    assert_eq!((p.0.store.used(), p.0.simulated()), (used, simulated));
+    assert_eq!((p.0.store().used(), p.0.simulated()), (used, simulated));
 }
 
 #[test]
 fn dropped_while_it_works_it_ends_at_once() {
     let stage = Stage::set();
     let mut p = stage.start(true);
-    p.until("a frame", |p| p.timeline.slot(1).is_some());
+    p.until("a frame", |p| p.timeline().slot(1).is_some());
     let began = Instant::now();
     drop(p);
     assert!(began.elapsed() < Duration::from_millis(500));

@@ -41,18 +41,18 @@ impl Previewer {
                 }
             }
             Action::SetIn { frame } => {
-                let frame = frame.min(self.timeline.last());
+                let frame = frame.min(self.frames.timeline.last());
                 self.state.playback.first = frame;
                 self.state.playback.last = last.max(frame);
             }
             Action::SetOut { frame } => {
-                let frame = frame.min(self.timeline.last());
+                let frame = frame.min(self.frames.timeline.last());
                 self.state.playback.last = frame;
                 self.state.playback.first = first.min(frame);
             }
             Action::ClearRange => {
                 self.state.playback.first = 0;
-                self.state.playback.last = self.timeline.last();
+                self.state.playback.last = self.frames.timeline.last();
             }
             Action::SetLooping { on } => self.state.playback.looping = on,
             other => unreachable!("{other:?} is about other things"),
@@ -64,8 +64,9 @@ impl Previewer {
         if !self.state.playback.playing {
             return None;
         }
-        let fps = self.scenery.as_ref()?.fps;
-        let (since, from) = *self.played_from.get_or_insert((now, self.state.playback.current));
+        let fps = self.open.scenery.as_ref()?.fps;
+        let (since, from) =
+            *self.showing.played_from.get_or_insert((now, self.state.playback.current));
         let Playback { first, last, looping, .. } = self.state.playback;
         let end = self.playable_end();
         // A clock that jumps back stands still.
@@ -78,7 +79,7 @@ impl Previewer {
         if end < last {
             // The frames after it are not there yet: time waits for them.
             self.show(end);
-            self.played_from = Some((now, end));
+            self.showing.played_from = Some((now, end));
             return Some(now + 1.0 / fps);
         }
         if looping && end > first {
@@ -93,13 +94,13 @@ impl Previewer {
     }
 
     pub fn shown(&self) -> Option<&Shown> {
-        self.shown.as_ref()
+        self.showing.frame.as_ref()
     }
 
     /// What A has at the current frame, while it is compared with.
     pub fn shown_of_a(&self) -> Option<&Arc<Frame>> {
         let current = self.state.playback.current;
-        self.shown_of_a.as_ref().filter(|(number, _)| *number == current).map(|(_, frame)| frame)
+        self.showing.of_a.as_ref().filter(|(number, _)| *number == current).map(|(_, frame)| frame)
     }
 
     fn play(&mut self) {
@@ -108,18 +109,18 @@ impl Previewer {
             playback.current = playback.first;
         }
         playback.playing = true;
-        self.played_from = None;
+        self.showing.played_from = None;
         self.refresh_shown();
     }
 
     fn pause(&mut self) {
         self.state.playback.playing = false;
-        self.played_from = None;
+        self.showing.played_from = None;
     }
 
     fn go_to(&mut self, frame: u32) {
-        self.played_from = None;
-        self.show(frame.min(self.timeline.last()));
+        self.showing.played_from = None;
+        self.show(frame.min(self.frames.timeline.last()));
     }
 
     fn show(&mut self, frame: u32) {
@@ -133,12 +134,12 @@ impl Previewer {
     /// The last frame that can be played without a gap from the current one.
     fn playable_end(&self) -> u32 {
         let Playback { current, last, .. } = self.state.playback;
-        let gap = (current..=last).find(|&number| self.timeline.slot(number).is_none());
+        let gap = (current..=last).find(|&number| self.frames.timeline.slot(number).is_none());
         gap.map_or(last, |number| number.saturating_sub(1).max(current))
     }
 
     fn key_beside(&self, current: u32, direction: Direction) -> Option<u32> {
-        let frames = self.scenery.as_ref()?.camera.as_ref()?.key_frames();
+        let frames = self.open.scenery.as_ref()?.camera.as_ref()?.key_frames();
         let frames = frames.into_iter().map(|frame| frame.round().max(0.0) as u32);
         match direction {
             Direction::Back => frames.filter(|&frame| frame < current).max(),
@@ -150,15 +151,15 @@ impl Previewer {
     /// before stays.
     pub(super) fn refresh_shown(&mut self) {
         let current = self.state.playback.current;
-        match self.timeline.nearest_before(current) {
+        match self.frames.timeline.nearest_before(current) {
             Some(number) => {
-                let key = self.timeline.slot(number).expect("it is there").key;
-                match self.store.find(key) {
-                    Place::Memory(frame) => self.shown = Some(Shown { number, frame }),
+                let key = self.frames.timeline.slot(number).expect("it is there").key;
+                match self.frames.store.find(key) {
+                    Place::Memory(frame) => self.showing.frame = Some(Shown { number, frame }),
                     Place::Disk | Place::Nowhere => self.load(key, number),
                 }
             }
-            None => self.shown = None,
+            None => self.showing.frame = None,
         }
         self.refresh_shown_of_a(current);
         if self.state.playback.playing {
@@ -170,29 +171,29 @@ impl Previewer {
         let compared = self.state.a.as_ref().filter(|_| self.state.wipe.is_some());
         let key = compared.and_then(|a| a.keys.get(current as usize).copied().flatten());
         let Some(key) = key else {
-            self.shown_of_a = None;
+            self.showing.of_a = None;
             return;
         };
-        match self.store.find(key) {
-            Place::Memory(frame) => self.shown_of_a = Some((current, frame)),
+        match self.frames.store.find(key) {
+            Place::Memory(frame) => self.showing.of_a = Some((current, frame)),
             Place::Disk => self.load(key, current),
-            Place::Nowhere => self.shown_of_a = None,
+            Place::Nowhere => self.showing.of_a = None,
         }
     }
 
     /// Frames like those at hand that memory has room for.
     fn frames_that_fit(&self) -> u32 {
-        let count = self.store.len().max(1) as u64;
-        let each = (self.store.used() / count).max(1);
-        u32::try_from(self.store.budget() / each).unwrap_or(u32::MAX)
+        let count = self.frames.store.len().max(1) as u64;
+        let each = (self.frames.store.used() / count).max(1);
+        u32::try_from(self.frames.store.budget() / each).unwrap_or(u32::MAX)
     }
 
     fn read_frames_ahead(&mut self, current: u32) {
         let ahead = AHEAD.min(self.frames_that_fit() / 2);
         for number in current..=(current + ahead).min(self.state.playback.last) {
-            let Some(slot) = self.timeline.slot(number) else { break };
+            let Some(slot) = self.frames.timeline.slot(number) else { break };
             let key = slot.key;
-            if !self.store.is_in_memory(key) {
+            if !self.frames.store.is_in_memory(key) {
                 self.load(key, number);
             }
         }

@@ -12,7 +12,7 @@ use tempfile::TempDir;
 use super::super::*;
 use crate::preview::{FrameStatus, Level};
 use crate::request::{FrameRange, Request};
-use crate::sim::{Simulation, SizingMode};
+use crate::sim::{Frame, Simulation, SizingMode};
 
 pub const LAST: u32 = 12;
 pub const PATIENCE: Duration = Duration::from_secs(120);
@@ -140,9 +140,10 @@ impl Driven {
 
     pub fn until_done(&mut self) {
         self.until("the last frame", |p| {
-            let is_there =
-                |frame| matches!(p.timeline.status(frame), FrameStatus::Ready | FrameStatus::Mixed);
-            !p.is_opening() && p.timeline.len() > 1 && (1..=p.timeline.last()).all(is_there)
+            let is_there = |frame| {
+                matches!(p.timeline().status(frame), FrameStatus::Ready | FrameStatus::Mixed)
+            };
+            !p.is_opening() && p.timeline().len() > 1 && (1..=p.timeline().last()).all(is_there)
         });
     }
 
@@ -151,13 +152,13 @@ impl Driven {
     }
 
     pub fn statuses(&self) -> String {
-        let letter = |frame| match self.0.timeline.status(frame) {
+        let letter = |frame| match self.0.timeline().status(frame) {
             FrameStatus::Ready => 'r',
             FrameStatus::Mixed => 'm',
             FrameStatus::Stale => 's',
             FrameStatus::Missing => '.',
         };
-        (0..self.0.timeline.len() as u32).map(letter).collect()
+        (0..self.0.timeline().len() as u32).map(letter).collect()
     }
 
     pub fn frame(&mut self, number: u32) -> Arc<Frame> {

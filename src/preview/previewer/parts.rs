@@ -1,0 +1,122 @@
+//! What a previewer consists of.
+
+use std::collections::{HashSet, VecDeque};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::time::Shown;
+use crate::preview::Plan;
+use crate::preview::action::Action;
+use crate::preview::engine::{Engine, JobId};
+use crate::preview::history::Version;
+use crate::preview::keeper::Keeper;
+use crate::preview::key::FrameKey;
+use crate::preview::navigate::EyeAndTarget;
+use crate::preview::planner::{Planner, Source};
+use crate::preview::scenery::Scenery;
+use crate::preview::store::FrameStore;
+use crate::preview::timeline::{Cost, Timeline};
+use crate::run::RunReader;
+use crate::sim::Frame;
+
+/// What is open.
+pub(super) struct Open {
+    pub source: Source,
+    /// `None` while the first shot is being opened, or could not be.
+    pub scenery: Option<Arc<Scenery>>,
+    /// Of a shot.
+    pub plan: Option<Arc<Plan>>,
+    /// What is open if it is a finished run.
+    pub run: Option<Arc<RunReader>>,
+}
+
+/// From settings to plans.
+pub(super) struct Planning {
+    pub planner: Planner,
+    /// The plan that is awaited, and for what.
+    pub awaited: Option<Awaited>,
+    /// Why what was to be opened last could not be.
+    pub opening_failure: Option<String>,
+    /// The version of the plan that is in force: what is returned to if another cannot be.
+    pub proved: Version,
+    /// What has to wait for a plan, and where the user was when asking for it.
+    pub deferred: VecDeque<Deferred>,
+}
+
+/// What a plan was asked for.
+pub(super) struct Awaited {
+    pub request: u64,
+    pub source: Source,
+    pub occasion: Occasion,
+}
+
+/// Why a plan is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Occasion {
+    /// Something else is opened.
+    Opening,
+    /// What is open has been changed, read again or saved.
+    Change,
+}
+
+/// An action that builds upon the plan in force, asked for while another is awaited.
+pub(super) struct Deferred {
+    pub action: Action,
+    pub current: u32,
+    pub dragged_camera: Option<EyeAndTarget>,
+}
+
+/// Which frames there are, and where.
+pub(super) struct Frames {
+    pub timeline: Timeline,
+    pub store: FrameStore,
+    pub keeper: Keeper,
+    /// Where the keeper keeps them.
+    pub cache: Option<PathBuf>,
+    /// Those that are being read.
+    pub loading: HashSet<FrameKey>,
+    /// The disk takes no more of them.
+    pub has_kept_failure: bool,
+}
+
+/// The simulation.
+pub(super) struct Making {
+    pub engine: Engine,
+    pub job: Option<Work>,
+    /// Counts the frames that were simulated.
+    pub simulated: u64,
+}
+
+/// What the engine has been told to make.
+pub(super) struct Work {
+    pub id: JobId,
+    pub keys: Vec<FrameKey>,
+}
+
+/// A second simulation of the shot, whoever looks: for its costs alone.
+pub(super) struct Rival {
+    pub engine: Engine,
+    pub job: Option<JobId>,
+    pub costs: Vec<Option<Cost>>,
+    /// Of the frames that the costs are those of.
+    pub keys: Vec<FrameKey>,
+    pub on: bool,
+}
+
+/// What is to be seen.
+#[derive(Default)]
+pub(super) struct Showing {
+    pub frame: Option<Shown>,
+    /// What A has, and of which frame.
+    pub of_a: Option<(u32, Arc<Frame>)>,
+    /// When playback began, and at which frame.
+    pub played_from: Option<(f64, u32)>,
+}
+
+/// Files that were read, and have changed on disk since.
+#[derive(Default)]
+pub(super) struct Watched {
+    pub changed: Vec<PathBuf>,
+    /// Those of them that the user would not have read again.
+    pub ignored: Vec<PathBuf>,
+}
