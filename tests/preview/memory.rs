@@ -58,7 +58,7 @@ fn what_is_kept_as_a_is_seen_through_its_own_camera() {
     let middle = (x0 + x1) / 2;
     let [a, b] = [[x0, y0 + 60, middle - 10, y1 - 30], [middle + 10, y0 + 60, x1, y1 - 30]];
     assert_eq!(differing(&before, &after, a), 0, "A is not seen as it was");
-    assert!(differing(&before, &after, b) > 5000, "B's camera has not moved");
+    assert!(differing(&before, &after, b) > 1000, "B's camera has not moved");
 }
 
 #[test]

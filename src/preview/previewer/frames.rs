@@ -2,19 +2,15 @@
 
 use std::sync::Arc;
 
-use super::parts::{Awaited, Occasion, Work};
-use super::{Effect, Previewer};
-use crate::preview::Plan;
+use super::Previewer;
+use super::parts::Work;
 use crate::preview::engine::{Job, JobId};
-use crate::preview::key::{FrameKey, step_keys};
+use crate::preview::key::FrameKey;
 use crate::preview::message::Event;
-use crate::preview::planner::Opened;
-use crate::preview::scenery::Scenery;
-use crate::preview::state::{Level, Playback};
+use crate::preview::state::Level;
 use crate::preview::store::Place;
-use crate::preview::timeline::{Cost, Timeline};
-use crate::run::RunReader;
-use crate::sim::{Frame, SizingMode};
+use crate::preview::timeline::Cost;
+use crate::sim::Frame;
 
 /// Frames on disk are read ahead until they fill this share of the memory, so that costs are known
 /// and scrubbing is immediate.
@@ -56,98 +52,6 @@ impl Previewer {
         }
     }
 
-    fn take_plan(&mut self, request: u64, opened: Result<Opened, String>) {
-        let Some(awaited) = self.planning.awaited.take_if(|awaited| awaited.request == request)
-        else {
-            // A later one is on its way.
-            return;
-        };
-        match opened {
-            Ok(opened) => self.take_opened(opened, awaited),
-            Err(why) => {
-                self.state.history.forget(&self.planning.proved);
-                self.state.version = self.planning.proved.clone();
-                if awaited.occasion == Occasion::Opening {
-                    self.planning.opening_failure = Some(why.clone());
-                }
-                self.state.say(Level::Error, why);
-                self.pursue();
-            }
-        }
-        self.act_on_deferred();
-    }
-
-    fn take_opened(&mut self, opened: Opened, awaited: Awaited) {
-        let is_new = awaited.occasion == Occasion::Opening || self.open.scenery.is_none();
-        let is_renamed = is_new || self.open.source != awaited.source;
-        self.open.source = awaited.source;
-        self.planning.proved = self.state.version.clone();
-        self.planning.opening_failure = None;
-        self.watched.changed.clear();
-        if !std::mem::take(&mut self.watched.ignored).is_empty() && !is_new {
-            let text = "files that had changed on disk were read again with this change";
-            self.state.say(Level::Note, text);
-        }
-        match opened {
-            Opened::Shot(plan) => self.follow(Arc::from(plan), is_new),
-            Opened::Run(run) => self.show_run(run),
-        }
-        if is_renamed {
-            self.effects.push(Effect::Opened(self.open.source.clone()));
-        }
-    }
-
-    fn follow(&mut self, plan: Arc<Plan>, is_new: bool) {
-        let scenery = Scenery::of_plan(&plan);
-        if is_new {
-            self.forget_what_was_open(scenery.last);
-            for warning in &plan.requested.warnings {
-                self.state.say(Level::Warning, warning.clone());
-            }
-        } else {
-            let before = self.open.scenery.as_ref().map_or(scenery.last, |s| s.last);
-            self.state.playback = self.state.playback.with_last(before, scenery.last);
-        }
-        self.open.scenery = Some(Arc::new(scenery));
-        self.open.plan = Some(plan);
-        self.open.run = None;
-        self.refresh();
-        self.end_stale_job();
-        let missing =
-            self.frames.timeline.wanted_keys().filter(|&key| !self.frames.store.has(key)).collect();
-        // Nothing is simulated that lies on disk: the answer sets the engine to work.
-        self.frames.keeper.look(missing);
-        self.follow_rival();
-    }
-
-    fn show_run(&mut self, run: Arc<RunReader>) {
-        let scenery = Scenery::of_run(&run);
-        self.forget_what_was_open(scenery.last);
-        self.frames.timeline =
-            Timeline::of_run(scenery.last, run.frames(), &run.info().input_hash, &identity(&run));
-        self.open.scenery = Some(Arc::new(scenery));
-        self.open.plan = None;
-        self.open.run = Some(run);
-        self.refresh_shown();
-        self.read_ahead();
-    }
-
-    fn forget_what_was_open(&mut self, last: u32) {
-        self.halt();
-        self.state.playback = Playback::of(last);
-        self.state.history = Default::default();
-        self.state.a = None;
-        self.state.wipe = None;
-        self.state.overwriting = None;
-        self.state.witness = None;
-        self.state.dragged_camera = None;
-        self.frames.timeline = Timeline::default();
-        self.showing.frame = None;
-        self.showing.of_a = None;
-        self.showing.played_from = None;
-        self.frames.loading.clear();
-    }
-
     /// Holds the timeline against the plan, after either or the store has changed.
     pub(super) fn refresh(&mut self) {
         if let Some(plan) = &self.open.plan {
@@ -186,7 +90,7 @@ impl Previewer {
     }
 
     /// Ends a job that does not make just what is to be made next.
-    fn end_stale_job(&mut self) {
+    pub(super) fn end_stale_job(&mut self) {
         let Some(work) = &self.making.job else { return };
         let gap = self.frames.timeline.gap(&self.frames.store);
         let wanted = gap.map_or(Vec::new(), |(_, frames)| frames);
@@ -305,7 +209,7 @@ impl Previewer {
     }
 
     /// Asks for the next frame that is on disk alone, while there is room.
-    fn read_ahead(&mut self) {
+    pub(super) fn read_ahead(&mut self) {
         let room = (self.frames.store.budget() as f64 * READ_AHEAD_SHARE) as u64;
         if self.frames.store.used() >= room {
             return;
@@ -336,62 +240,4 @@ impl Previewer {
         lost.iter().for_each(|&key| self.frames.timeline.forget(key));
         self.refresh_shown();
     }
-
-    /// Begins or ends the simulation for its costs.
-    pub(super) fn measure_adaptive(&mut self, on: bool) {
-        self.rival.on = on;
-        self.follow_rival();
-    }
-
-    /// Costs of other settings are forgotten; those that are asked for are measured.
-    fn follow_rival(&mut self) {
-        let Some(plan) = self.open.plan.clone() else { return };
-        let mut requested = plan.requested.clone();
-        requested.settings.sizing = SizingMode::Adaptive;
-        let after = |parent: &mut Option<FrameKey>, step| {
-            *parent = Some(FrameKey::after(*parent, step));
-            *parent
-        };
-        let keys: Vec<FrameKey> =
-            step_keys(&requested, plan.last()).into_iter().scan(None, after).collect();
-        if self.rival.keys != keys {
-            self.rival.costs = vec![None; keys.len()];
-            self.rival.keys = keys.clone();
-            self.end_rival();
-        }
-        if !self.rival.on {
-            self.end_rival();
-        } else if self.rival.job.is_none() && self.rival.costs.contains(&None) {
-            let (scene, settings) = (requested.scene.clone(), requested.settings);
-            let job = Job { scene, settings, start: None, frames: keys };
-            self.rival.job = Some(self.rival.engine.begin(job));
-        }
-    }
-
-    fn end_rival(&mut self) {
-        self.rival.engine.stop();
-        self.rival.job = None;
-    }
-
-    fn take_rival(&mut self, event: Event) {
-        match event {
-            Event::Simulated { job, frame, .. } if self.rival.job == Some(job) => {
-                if let Some(cost) = self.rival.costs.get_mut(frame.number as usize) {
-                    *cost = Some(Cost::of(&frame));
-                }
-            }
-            Event::Finished { job } if self.rival.job == Some(job) => self.rival.job = None,
-            Event::Failed { job, why, .. } if self.rival.job == Some(job) => {
-                self.rival.job = None;
-                self.state.say(Level::Warning, format!("the adaptive run stopped: {why}"));
-            }
-            _ => {}
-        }
-    }
-}
-
-/// What tells a run from all others: where it is, and what made it from what.
-fn identity(run: &RunReader) -> String {
-    let info = run.info();
-    format!("{} {} {}", run.dir().display(), info.program_version, info.input_hash)
 }

@@ -6,7 +6,9 @@
 mod camera;
 mod files;
 mod frames;
+mod opening;
 mod parts;
+mod rival;
 mod settings;
 mod time;
 

@@ -94,47 +94,48 @@ impl Document<'_> {
         entries: &[Entry<'_, '_>],
         elements: &'v [Value],
     ) -> Vec<Wanted<'v>> {
-        let said: Vec<Option<Value>> = entries
-            .iter()
-            .map(|entry| says(&self.text[entry.node.start()..entry.node.end()]))
-            .collect();
-        let mut wanted: Vec<Wanted<'v>> =
-            elements.iter().map(|value| Wanted { name: None, value, old: None }).collect();
-        let have_identity = elements.iter().all(|element| element.get(IDENTITY).is_some());
-        if !have_identity {
+        let new = |value| Wanted { name: None, value, old: None };
+        let mut wanted: Vec<Wanted<'v>> = elements.iter().map(new).collect();
+        if elements.iter().all(|element| element.get(IDENTITY).is_some()) {
+            let text = |entry: &Entry<'_, '_>| &self.text[entry.node.start()..entry.node.end()];
+            let said: Vec<_> = entries.iter().map(|entry| says(text(entry))).collect();
+            pair(&said, &mut wanted, has_same_identity);
+            pair(&said, &mut wanted, is_same_but_for_identity);
+        } else {
             for (place, wanted) in wanted.iter_mut().enumerate().take(entries.len()) {
                 wanted.old = Some(place);
-            }
-            return wanted;
-        }
-        let tells = |value: &Value| value.get(IDENTITY).cloned();
-        let by_identity = |old: &Value, new: &Value| match (tells(old), tells(new)) {
-            (Some(old), Some(new)) => is_same(&old, &new),
-            _ => false,
-        };
-        let but_for_it = |old: &Value, new: &Value| {
-            let without = |value: &Value| {
-                let mut value = value.clone();
-                value.as_object_mut().map(|members| members.remove(IDENTITY));
-                value
-            };
-            is_same(&without(old), &without(new))
-        };
-        for is_it in [&by_identity as &dyn Fn(&Value, &Value) -> bool, &but_for_it] {
-            let mut taken: Vec<bool> = vec![false; entries.len()];
-            wanted.iter().filter_map(|wanted| wanted.old).for_each(|place| taken[place] = true);
-            for wanted in wanted.iter_mut().filter(|wanted| wanted.old.is_none()) {
-                let found = said.iter().enumerate().position(|(place, said)| {
-                    !taken[place] && said.as_ref().is_some_and(|said| is_it(said, wanted.value))
-                });
-                if let Some(place) = found {
-                    taken[place] = true;
-                    wanted.old = Some(place);
-                }
             }
         }
         wanted
     }
+}
+
+/// Finds for all that are none yet the old entries that they are, each once.
+fn pair(said: &[Option<Value>], wanted: &mut [Wanted<'_>], is_it: fn(&Value, &Value) -> bool) {
+    let mut is_taken = vec![false; said.len()];
+    wanted.iter().filter_map(|wanted| wanted.old).for_each(|place| is_taken[place] = true);
+    for wanted in wanted.iter_mut().filter(|wanted| wanted.old.is_none()) {
+        let fits = |place: &usize| {
+            let said = said[*place].as_ref().filter(|_| !is_taken[*place]);
+            said.is_some_and(|said| is_it(said, wanted.value))
+        };
+        wanted.old = (0..said.len()).find(fits);
+        wanted.old.into_iter().for_each(|place| is_taken[place] = true);
+    }
+}
+
+fn has_same_identity(old: &Value, new: &Value) -> bool {
+    old.get(IDENTITY).zip(new.get(IDENTITY)).is_some_and(|(old, new)| is_same(old, new))
+}
+
+/// As a key that was moved in time alone.
+fn is_same_but_for_identity(old: &Value, new: &Value) -> bool {
+    let [old, new] = [old, new].map(|value| {
+        let mut members = value.as_object().cloned().unwrap_or_default();
+        members.remove(IDENTITY);
+        Value::Object(members)
+    });
+    is_same(&old, &new)
 }
 
 /// Those that stay in the order of the file, each new one behind the one that it comes behind.

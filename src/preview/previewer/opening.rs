@@ -1,0 +1,112 @@
+//! What has been planned comes into force, be it a change or something else that is opened.
+
+use std::sync::Arc;
+
+use super::parts::{Awaited, Occasion};
+use super::{Effect, Previewer};
+use crate::preview::Plan;
+use crate::preview::planner::Opened;
+use crate::preview::scenery::Scenery;
+use crate::preview::state::{Level, Playback};
+use crate::preview::timeline::Timeline;
+use crate::run::RunReader;
+
+impl Previewer {
+    pub(super) fn take_plan(&mut self, request: u64, opened: Result<Opened, String>) {
+        let Some(awaited) = self.planning.awaited.take_if(|awaited| awaited.request == request)
+        else {
+            // A later one is on its way.
+            return;
+        };
+        match opened {
+            Ok(opened) => self.take_opened(opened, awaited),
+            Err(why) => {
+                self.state.history.forget(&self.planning.proved);
+                self.state.version = self.planning.proved.clone();
+                if awaited.occasion == Occasion::Opening {
+                    self.planning.opening_failure = Some(why.clone());
+                }
+                self.state.say(Level::Error, why);
+                self.pursue();
+            }
+        }
+        self.act_on_deferred();
+    }
+
+    fn take_opened(&mut self, opened: Opened, awaited: Awaited) {
+        let is_new = awaited.occasion == Occasion::Opening || self.open.scenery.is_none();
+        let is_renamed = is_new || self.open.source != awaited.source;
+        self.open.source = awaited.source;
+        self.planning.proved = self.state.version.clone();
+        self.planning.opening_failure = None;
+        self.watched.changed.clear();
+        if !std::mem::take(&mut self.watched.ignored).is_empty() && !is_new {
+            let text = "files that had changed on disk were read again with this change";
+            self.state.say(Level::Note, text);
+        }
+        match opened {
+            Opened::Shot(plan) => self.follow(Arc::from(plan), is_new),
+            Opened::Run(run) => self.show_run(run),
+        }
+        if is_renamed {
+            self.effects.push(Effect::Opened(self.open.source.clone()));
+        }
+    }
+
+    fn follow(&mut self, plan: Arc<Plan>, is_new: bool) {
+        let scenery = Scenery::of_plan(&plan);
+        if is_new {
+            self.forget_what_was_open(scenery.last);
+            for warning in &plan.requested.warnings {
+                self.state.say(Level::Warning, warning.clone());
+            }
+        } else {
+            let before = self.open.scenery.as_ref().map_or(scenery.last, |s| s.last);
+            self.state.playback = self.state.playback.with_last(before, scenery.last);
+        }
+        self.open.scenery = Some(Arc::new(scenery));
+        self.open.plan = Some(plan);
+        self.open.run = None;
+        self.refresh();
+        self.end_stale_job();
+        let missing =
+            self.frames.timeline.wanted_keys().filter(|&key| !self.frames.store.has(key)).collect();
+        // Nothing is simulated that lies on disk: the answer sets the engine to work.
+        self.frames.keeper.look(missing);
+        self.follow_rival();
+    }
+
+    fn show_run(&mut self, run: Arc<RunReader>) {
+        let scenery = Scenery::of_run(&run);
+        self.forget_what_was_open(scenery.last);
+        self.frames.timeline =
+            Timeline::of_run(scenery.last, run.frames(), &run.info().input_hash, &identity(&run));
+        self.open.scenery = Some(Arc::new(scenery));
+        self.open.plan = None;
+        self.open.run = Some(run);
+        self.refresh_shown();
+        self.read_ahead();
+    }
+
+    fn forget_what_was_open(&mut self, last: u32) {
+        self.halt();
+        self.state.playback = Playback::of(last);
+        self.state.history = Default::default();
+        self.state.a = None;
+        self.state.wipe = None;
+        self.state.overwriting = None;
+        self.state.witness = None;
+        self.state.dragged_camera = None;
+        self.frames.timeline = Timeline::default();
+        self.showing.frame = None;
+        self.showing.of_a = None;
+        self.showing.played_from = None;
+        self.frames.loading.clear();
+    }
+}
+
+/// What tells a run from all others: where it is, and what made it from what.
+fn identity(run: &RunReader) -> String {
+    let info = run.info();
+    format!("{} {} {}", run.dir().display(), info.program_version, info.input_hash)
+}
