@@ -2,6 +2,7 @@
 
 mod camera;
 mod costs;
+mod exports;
 mod files;
 mod parameters;
 mod room;

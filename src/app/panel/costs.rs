@@ -75,7 +75,7 @@ impl CostsPanel {
             .y_axis_min_width(44.0)
             .y_grid_spacer(egui_plot::uniform_grid_spacer(|input| {
                 let span = (input.bounds.1 - input.bounds.0).abs().max(1e-9);
-                let step = 10f64.powf((0.4 * span).log10().floor());
+                let step = round_step(span);
                 [step, step, step]
             }))
             .legend(Legend::default().background_alpha(0.5));
@@ -150,6 +150,15 @@ fn summary(ui: &mut Ui, context: &Context<'_>) {
     });
 }
 
+/// Between lines of a scale over a span: 1, 2 or 5 times a power of ten, so that there are three at most
+/// and their numbers have room in a low panel.
+fn round_step(span: f64) -> f64 {
+    let least = span / 3.0;
+    let decade = 10f64.powf(least.log10().floor());
+    let steps = [1.0, 2.0, 5.0].map(|factor| factor * decade);
+    steps.into_iter().find(|&step| step >= least).unwrap_or(10.0 * decade)
+}
+
 fn costs(timeline: &Timeline) -> Vec<Option<Cost>> {
     (0..timeline.len() as u32).map(|frame| timeline.slot(frame)?.cost).collect()
 }
@@ -194,4 +203,21 @@ fn stages(costs: &[Option<Cost>]) -> Vec<BarChart> {
             BarChart::new(name, bars.collect()).color(STAGE_COLOURS[stage])
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scale_has_one_to_three_round_steps() {
+        for (span, step) in [(3.0, 1.0), (3.1, 2.0), (4300.0, 2000.0), (0.07, 0.05), (29.0, 10.0)] {
+            assert!((round_step(span) / step - 1.0).abs() < 1e-9, "{span}: {}", round_step(span));
+        }
+        for k in 1..2000 {
+            let span = 1e-3 * 1.01f64.powi(k);
+            let lines = span / round_step(span);
+            assert!((1.2..=3.0 + 1e-9).contains(&lines), "{span}: {lines}");
+        }
+    }
 }

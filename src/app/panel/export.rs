@@ -52,8 +52,9 @@ impl ExportPanel {
                 ui.separator();
                 self.how(ui);
                 let mut to = self.to.clone().unwrap_or_else(|| self.usual_name(context));
-                ui.label("to");
-                if ui.add(TextEdit::singleline(&mut to).desired_width(320.0)).changed() {
+                let label = ui.label("to");
+                let field = ui.add(TextEdit::singleline(&mut to).desired_width(320.0));
+                if field.labelled_by(label.id).changed() {
                     self.to = Some(to.clone());
                 }
                 let is_ready = !context.exports.is_running() && !to.trim().is_empty();
@@ -89,8 +90,9 @@ impl ExportPanel {
             ui.checkbox(&mut self.burn_in, "strip with shot, frame, lens and settings");
         }
         ui.horizontal(|ui| {
-            ui.label("width of one view");
-            ui.add(DragValue::new(&mut self.width).range(64..=8192).suffix(" px"));
+            let label = ui.label("width of one view");
+            let field = DragValue::new(&mut self.width).range(64..=8192).suffix(" px");
+            ui.add(field).labelled_by(label.id);
         });
     }
 

@@ -11,6 +11,11 @@ use crate::preview::{
     Action, Edits, Off, Parameter, ParameterKind, Plan, Scale, parameters, value,
 };
 
+/// Indentation, and a slider's number with its unit (points).
+const BESIDE_SLIDERS: f32 = 125.0;
+/// (points).
+const SLIDER_MIN: f32 = 40.0;
+
 /// See the module.
 #[derive(Default)]
 pub struct ParametersPanel {
@@ -40,6 +45,8 @@ impl ParametersPanel {
                 actions.push(Action::ResetAll);
             }
         });
+        let sliders = ui.available_width() - BESIDE_SLIDERS;
+        ui.spacing_mut().slider_width = sliders.clamp(SLIDER_MIN, ui.spacing().slider_width);
         let mut rest = listed.as_slice();
         while let Some(first) = rest.first() {
             let count = rest.iter().take_while(|p| p.group == first.group).count();
@@ -82,7 +89,7 @@ fn row(
     let held = dragged.as_ref().filter(|(path, _)| *path == parameter.path);
     let mut now = held.map_or_else(|| in_force.clone(), |(_, value)| value.clone());
     let is_edited = edits.get(&parameter.path).is_some();
-    let label = ui.horizontal(|ui| {
+    let label = ui.horizontal_wrapped(|ui| {
         let mut label = RichText::new(parameter.label);
         if is_edited {
             label = label.color(theme::ACCENT);

@@ -54,7 +54,7 @@ impl Room {
     pub fn parameters_widths(&self) -> RangeInclusive<f32> {
         match self.has_both() {
             true => 220.0..=520.0,
-            false => 160.0..=(0.31 * self.size.x).max(160.0),
+            false => 160.0..=(0.27 * self.size.x).max(160.0),
         }
     }
 

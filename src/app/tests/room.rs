@@ -56,6 +56,15 @@ fn in_a_narrow_window_everything_of_the_bar_is_in_menus() {
 }
 
 #[test]
+fn settings_fit_into_a_narrow_panel() {
+    let mut seat = Seat::take_with(Setting { size: LARGE_TEXT, ..Setting::default() });
+    seat.unfold("Time and air");
+    // Content that is too wide is pushed out to the left.
+    let title = seat.node(Role::Label, "Settings").rect();
+    assert!(title.left() >= seat.views().right() + 4.0, "{title:?}");
+}
+
+#[test]
 fn nothing_in_the_bar_jumps_when_there_is_an_a_or_another_reach() {
     let mut seat = Seat::take_simulated();
     let names = ["Open", "Re-run", "Undo", "Keep as A", "A | B", "Swap", "Settings", "Help"];

@@ -90,6 +90,10 @@ impl Seat {
         self.desk.state().views()
     }
 
+    pub fn is_exporting(&self) -> bool {
+        self.desk.state().is_exporting()
+    }
+
     pub fn current(&self) -> u32 {
         self.previewer().state().playback.current
     }

@@ -1,0 +1,64 @@
+//! Exports, and the question before they write over something.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use egui::accesskit::Role;
+
+use super::seat::Seat;
+use crate::preview::stage::PATIENCE;
+use crate::preview::{Action, Export, ExportKind, PanelName, Viewport};
+
+fn still(to: &Path) -> Action {
+    let export = Export {
+        kind: ExportKind::Still,
+        viewport: Viewport::Shot,
+        width: 64,
+        burn_in: false,
+        to: to.to_owned(),
+        overwrite: false,
+    };
+    Action::Export { export }
+}
+
+fn wait(seat: &mut Seat) {
+    let began = Instant::now();
+    while seat.is_exporting() {
+        seat.settle();
+        assert!(began.elapsed() < PATIENCE, "the export does not end");
+    }
+}
+
+#[test]
+fn a_file_is_written_over_only_when_the_user_says_so() {
+    let mut seat = Seat::take_simulated();
+    let to: PathBuf = seat.stage.folder.path().join("still.png");
+    fs::write(&to, "another").unwrap();
+    for (answer, is_picture) in [("Go back", false), ("Write over", true)] {
+        assert!(!seat.mentions("still.png"));
+        seat.act(still(&to));
+        assert!(seat.mentions("still.png") && !seat.is_exporting());
+        seat.click(answer);
+        wait(&mut seat);
+        assert_eq!(image::open(&to).is_ok(), is_picture, "{answer}");
+    }
+    assert!(!seat.is_offered("Write over"));
+}
+
+#[test]
+fn what_is_exported_is_chosen_and_named_after_the_shot() {
+    let mut seat = Seat::take();
+    seat.act(Action::SetPanel { panel: PanelName::Export, open: true });
+    for (kind, name) in [
+        ("Still", "shot.0.png"),
+        ("Contact sheet", "shot.sheet.png"),
+        ("PNG sequence", "shot.frames"),
+        ("Video", "shot.mp4"),
+        ("Run folder", "shot.run"),
+    ] {
+        seat.node(Role::RadioButton, kind).click();
+        seat.settle();
+        assert_eq!(seat.text().value().as_deref(), Some(name), "{kind}");
+    }
+}
