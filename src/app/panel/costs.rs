@@ -1,7 +1,7 @@
 //! What frames cost, live: faces and seconds over the timeline, as in the papers' figures of speed, with
 //! the stages stacked and, when asked for, what the same shot costs whoever looks.
 
-use egui::{Color32, Label, Ui};
+use egui::{Color32, Label, Ui, Vec2};
 use egui_plot::{Bar, BarChart, Legend, Line, Plot, PlotPoints, VLine};
 
 use super::Context;
@@ -30,6 +30,9 @@ const QUANTITIES: [(Quantity, &str); 4] = [
     (Quantity::Cumulative, "seconds in all"),
     (Quantity::Stages, "stages"),
 ];
+
+/// (points).
+const PLOT_MIN: Vec2 = Vec2::new(64.0, 24.0);
 
 const OURS: Color32 = Color32::from_rgb(96, 186, 150);
 const ADAPTIVE: Color32 = Color32::from_rgb(236, 130, 96);
@@ -71,6 +74,7 @@ impl CostsPanel {
             .include_y(0.0)
             .include_x(0.0)
             .include_x(f64::from(timeline.last()))
+            .min_size(PLOT_MIN)
             .show_x(false)
             .y_axis_min_width(44.0)
             .y_grid_spacer(egui_plot::uniform_grid_spacer(|input| {

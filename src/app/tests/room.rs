@@ -33,6 +33,9 @@ fn where_there_is_room_for_one_panel_one_gives_way_to_the_other() {
     assert!(seat.says("Reset all") && !seat.says("stages"));
     seat.click("Costs");
     assert!(!seat.says("Reset all") && seat.says("stages"));
+    // Content that is too high would be pushed out at the top.
+    let quantities = seat.node(Role::Button, "stages").rect();
+    assert!(quantities.top() >= seat.views().bottom(), "{quantities:?}");
     seat.click("Settings");
     assert!(seat.says("Reset all") && !seat.says("stages"));
     seat.click("Settings");
