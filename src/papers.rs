@@ -37,6 +37,10 @@ pub enum BW98 {}
 /// Bridson, Marino, Fedkiw: *Simulation of Clothing with Folds and Wrinkles*, SCA 2003.
 pub enum BMF03 {}
 
+/// Müller, Heidelberger, Hennix, Ratcliff: *Position Based Dynamics*, Journal of Visual
+/// Communication and Image Representation 2007.
+pub enum MHHR07 {}
+
 /// Cooper: *The Stiffness of Woven Textiles*, Journal of the Textile Institute 1960.
 pub enum C60 {}
 

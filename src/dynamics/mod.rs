@@ -24,6 +24,9 @@ mod folds;
 mod folds_tests;
 pub mod handles;
 mod iterate;
+mod limit_projection;
+#[cfg(test)]
+mod limit_projection_tests;
 pub mod matrix;
 mod newton;
 #[cfg(test)]
@@ -43,6 +46,7 @@ pub mod wind;
 
 pub use contact::ContactPoint;
 pub use handles::HandleSpring;
+pub use limit_projection::BeyondLimits;
 pub use solve::{Accuracy, LinearSolver, SolveError, SolverCounts};
 pub use step::{Convergence, StepError, StepForces, StepOutcome, StepState};
 pub use system::System;

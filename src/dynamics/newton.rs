@@ -24,9 +24,8 @@ const ROUNDING_SHARE: f64 = 1e-13;
 
 /// Newton iterations that strain limits ask for: linearised, a limit that a face reaches or leaves
 /// within the step, or meets while it turns, is met too early, too late or not at all. The second
-/// puts most of it right, and the next step the rest; a third is made only where a limit is far
-/// exceeded.
-const LIMITED_ITERATIONS: [u32; 2] = [2, 3];
+/// puts most of it right, and projection the rest; without the second a flag stops flapping.
+const LIMITED_ITERATIONS: u32 = 2;
 
 /// Of the first direction where only strain limits ask for iterations: what it misses is left to the
 /// others.
@@ -43,11 +42,6 @@ impl System {
         let mut outcome =
             StepOutcome { convergence: Convergence::IterationsUsedUp, ..Default::default() };
         for iteration in 0..self.iterations_max() {
-            if iteration >= self.iterations_min()
-                && !self.are_limits_far_exceeded(&iterate.position)
-            {
-                break;
-            }
             let contacts = self.iterated_contacts(&iterate, forces, dt);
             if iteration == 0 {
                 self.first_direction(start, forces, dt, &mut outcome)?;
@@ -79,12 +73,7 @@ impl System {
 
     /// Newton iterations of a step at most: as set, or as many as strain limits may ask for.
     pub(super) fn iterations_max(&self) -> u32 {
-        self.settings.iterations.max(if self.is_limited() { LIMITED_ITERATIONS[1] } else { 1 })
-    }
-
-    /// Newton iterations after which strain limits alone may ask for more.
-    fn iterations_min(&self) -> u32 {
-        self.settings.iterations.max(LIMITED_ITERATIONS[0])
+        self.settings.iterations.max(if self.is_limited() { LIMITED_ITERATIONS } else { 1 })
     }
 
     /// The linearised step, as a change from rest.

@@ -165,17 +165,21 @@ impl System {
         assert_eq!(state.velocity.len(), self.node_count(), "velocities are those of the system");
         state.check_finite()?;
         let before = self.solver.counts();
-        let (end, mut outcome) = match self.iterations_max() {
+        let (Iterate { position, velocity }, mut outcome) = match self.iterations_max() {
             0 | 1 => self.linearised_step(state, forces, dt)?,
             _ => self.iterated_step(state, forces, dt)?,
         };
+        let mut end = StepState { position, velocity };
+        if self.is_limited() {
+            self.keep_within_limits(&mut end, forces.handles, dt);
+        }
         let after = self.solver.counts();
         outcome.solver_iterations = after.iterations - before.iterations;
         outcome.factorisations = after.factorisations - before.factorisations;
         // Checked before anything is written.
         finite("velocity after the step", &end.velocity)?;
         finite("position after the step", &end.position)?;
-        *state = StepState { position: end.position, velocity: end.velocity };
+        *state = end;
         Ok(outcome)
     }
 

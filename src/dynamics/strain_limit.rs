@@ -1,4 +1,5 @@
-//! What keeps the faces of a fabric within its strain limits.
+//! What keeps the faces of a fabric within its strain limits; the rest is done by
+//! [`System::keep_within_limits`](super::System::keep_within_limits).
 
 use super::principal::{StrainBounds, StrainDerivatives};
 use crate::math::SymTensor2;
@@ -9,7 +10,6 @@ use crate::math::SymTensor2;
 pub struct StrainLimit {
     soft: StrainBounds,
     hard: StrainBounds,
-    far: StrainBounds,
 }
 
 /// K at a limit (N/m): it takes what spread loads ask for, 50 N/m within the slack.
@@ -28,13 +28,7 @@ impl StrainLimit {
         Self {
             soft: StrainBounds::of_stretch(ratios, SOFT_STIFFNESS),
             hard: StrainBounds::of_stretch(ratios_beyond(ratios, SLACK), HARD_STIFFNESS),
-            far: StrainBounds::of_stretch(ratios_beyond(ratios, FAR), 0.0),
         }
-    }
-
-    /// Whether a principal stretch is so far beyond a limit that the step missed it.
-    pub fn is_far_exceeded(&self, strain: SymTensor2) -> bool {
-        self.far.may_be_felt(strain)
     }
 
     /// (J/m^2).
@@ -59,9 +53,6 @@ impl StrainLimit {
         Some(sum)
     }
 }
-
-/// Share of a limiting ratio beyond it that no load explains: the hard energy would take 30 kN/m.
-const FAR: f64 = 5e-2;
 
 /// Limiting ratios that leave so much more room, a share of either.
 fn ratios_beyond([least, largest]: [f64; 2], share: f64) -> [f64; 2] {

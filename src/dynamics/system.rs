@@ -157,17 +157,8 @@ impl System {
     }
 
     /// Whether any fabric has strain limits.
-    pub(super) fn is_limited(&self) -> bool {
+    pub fn is_limited(&self) -> bool {
         self.garments.iter().any(|garment| garment.strain_limit.is_some())
-    }
-
-    /// Whether a face is strained far beyond a limit.
-    pub(super) fn are_limits_far_exceeded(&self, positions: &[DVec3]) -> bool {
-        let exceeds = |garment: &GarmentRanges, limit: StrainLimit| {
-            let mut faces = self.membranes[garment.membranes.clone()].iter();
-            faces.any(|face| limit.is_far_exceeded(face.strain(positions)))
-        };
-        self.garments.iter().any(|g| g.strain_limit.is_some_and(|limit| exceeds(g, limit)))
     }
 
     /// The root of a face's alpha; `None` where nothing is compensated.

@@ -18,6 +18,7 @@
 mod clock;
 mod frame;
 mod handles;
+mod limits;
 mod perturb;
 mod refine;
 mod settings;
@@ -181,6 +182,7 @@ impl Simulation {
             self.refine(&mut clock, &mut report);
         }
         clock.time(Stage::Collision, || self.clear_obstacles(&mut report));
+        self.keep_within_limits(&mut clock, &mut report);
         self.untangle(Moment::Frame, &mut clock, &mut report);
         Ok(Some(self.publish(clock, report)))
     }

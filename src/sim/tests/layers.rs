@@ -7,7 +7,7 @@ use crate::collision::crossings;
 const FRAMES: u32 = 14;
 
 /// The upper sheet lies across the lower one, 2 cm above.
-fn on_one_another() -> Scene {
+pub fn on_one_another() -> Scene {
     let mut scene = on_a_stone();
     let mut upper = scene.garments[0].clone();
     for x in upper.mesh.position.iter_mut() {

@@ -1,5 +1,7 @@
 //! Strain limits where they are hardest to keep.
 
+use super::frame_to_frame::assert_follows_from_each_frame;
+use super::layers::on_one_another;
 use super::*;
 
 const LIMITS: [f64; 2] = [0.9, 1.05];
@@ -26,14 +28,42 @@ fn hanging_from_two_nodes() -> Scene {
 #[test]
 fn a_loaded_sheet_that_hangs_from_two_nodes_stays_within_one_percent_of_its_limits() {
     for frame in &run(hanging_from_two_nodes(), SizingMode::Adaptive, 25) {
-        let mesh = &frame.garments[0];
-        for face in mesh.face_ids() {
-            let [major, minor] = mesh.deformation_of(mesh.face_vertices(face)).singular_values();
-            let [least, largest] = LIMITS;
-            let is_met = major <= 1.01 * largest && minor >= 0.99 * least;
-            assert!(is_met, "{major} and {minor} in face {face:?} of frame {}", frame.number);
-        }
+        assert_within_one_percent(frame);
     }
+}
+
+fn assert_within_one_percent(frame: &Frame) {
+    let [least, largest] = LIMITS;
+    for (mesh, face) in frame.garments.iter().flat_map(|m| m.face_ids().map(move |f| (m, f))) {
+        let [major, minor] = mesh.deformation_of(mesh.face_vertices(face)).singular_values();
+        let is_met = major <= 1.01 * largest && minor >= 0.99 * least;
+        assert!(is_met, "{major} and {minor} in face {face:?} of frame {}", frame.number);
+    }
+}
+
+/// Two remeshed garments with limits that fall onto a stone, one on the other.
+fn limited_on_a_stone() -> Scene {
+    let mut scene = on_one_another();
+    for garment in &mut scene.garments {
+        let Fabric::Measured(measured) = &mut garment.fabric else {
+            unreachable!("it is measured")
+        };
+        measured.strain_limits = Some(LIMITS);
+    }
+    scene
+}
+
+#[test]
+fn what_contact_and_remeshing_strain_is_within_one_percent_of_its_limits_when_published() {
+    for frame in run(limited_on_a_stone(), SizingMode::Adaptive, 16).iter().skip(1) {
+        assert_within_one_percent(frame);
+        assert_eq!(frame.report.intersections, Some(0), "frame {}", frame.number);
+    }
+}
+
+#[test]
+fn limited_cloth_follows_from_each_frame() {
+    assert_follows_from_each_frame(limited_on_a_stone(), SizingMode::Adaptive, 8);
 }
 
 #[test]
