@@ -25,6 +25,13 @@ fn shot() -> String {
         "#;
     let (start, end) = (SHOT.find("\"keys\": [").unwrap() + 9, SHOT.rfind("]\n    }").unwrap());
     let shot = format!("{}{keys}{}", &SHOT[..start], &SHOT[end..]);
+    // A wind that folds it, so that there is detail to lose.
+    let shot = shot
+        .replace(
+            "\"steps_per_frame\": 2,",
+            "\"steps_per_frame\": 2, \"air\": {\"velocity\": [3, 2, 0]},",
+        )
+        .replace("\"sizing\": {", "\"sizing\": {\"refine_angle\": 0.1, ");
     shot.replace("\"anticipation_frames\": 2", &format!("\"anticipation_frames\": {ANTICIPATION}"))
 }
 
@@ -38,11 +45,12 @@ fn a_key_moved_at_frame_100_of_150_has_nothing_computed_again_before_its_cut_and
     p.until_done();
     let frame_count = u64::from(LAST) + 1;
     assert_eq!(p.0.simulated(), frame_count);
-    let before = p.0.timeline().keys();
+    let (before, seen_before) = (p.0.timeline().keys(), bits(&p.frame(LAST)));
     p.act(Action::GoTo { frame: MOVED });
     p.act(Action::MoveCamera {
         eye: DVec3::new(0.5, -3.0, 0.4),
-        target: DVec3::new(0.5, 0.0, 0.2),
+        // Past the sheet.
+        target: DVec3::new(3.0, 0.0, 0.2),
     });
     p.act(Action::SetKey);
     p.until_done();
@@ -52,6 +60,8 @@ fn a_key_moved_at_frame_100_of_150_has_nothing_computed_again_before_its_cut_and
     assert!(kept <= MOVED as usize, "the moved key is not seen at all: {kept} frames are kept");
     assert_eq!(p.0.simulated(), 2 * frame_count - kept as u64);
 
+    // The edit is no small matter: detail that the camera does not see is gone.
+    assert_ne!(bits(&p.frame(LAST)), seen_before);
     let plan = p.0.plan().unwrap().clone();
     let (mut fresh, frame) =
         Simulation::start(plan.requested.scene.clone(), plan.settings()).unwrap();
