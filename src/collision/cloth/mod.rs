@@ -39,6 +39,10 @@ use crate::scene::Contact;
 /// their surroundings are looked up again.
 const ROOM_IN_THICKNESSES: f64 = 0.1;
 
+/// Of slow cloth around where it is expected, in contact thicknesses, so that what is near it need not
+/// be looked up in every step.
+const KEEPING_ROOM_IN_THICKNESSES: f64 = 0.2;
+
 /// All that contact of cloth with cloth keeps: made anew with every topology, and with every frame.
 pub struct ClothContact {
     layers: Layers,
@@ -86,7 +90,8 @@ impl ClothContact {
     ) {
         let way = |node: usize| cloth.velocity[node] * duration;
         let reach = (0.5 + ROOM_IN_THICKNESSES) * settings.thickness;
-        self.pairs.find(tree.topology(), cloth.position, way, reach);
+        let room = KEEPING_ROOM_IN_THICKNESSES * settings.thickness;
+        self.pairs.find_or_keep(tree.topology(), cloth.position, way, reach, room);
         self.leave_out_tangled(tree);
     }
 

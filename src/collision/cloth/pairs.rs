@@ -3,7 +3,8 @@
 //! Every node is given a box that it is expected to stay in. Features whose boxes meet are pairs;
 //! as long as all nodes keep to their boxes, no others can touch, so that contacts before the step
 //! and impacts after it are looked for among the same pairs. Nodes that leave their boxes get larger
-//! ones, and their faces are looked up again.
+//! ones, and their faces are looked up again. Where cloth is slow, boxes have room for the steps to
+//! come: their pairs are kept as long as most nodes stay in them.
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
@@ -47,15 +48,25 @@ fn point_count_of_first(features: Features) -> usize {
     }
 }
 
+/// Of the nodes may be fast, or out of their boxes, where pairs are kept.
+const OTHERS_SHARE_MAX: f64 = 0.125;
+
+/// Steps as the one at hand that room must last for, or the pairs that it adds cost more than it saves.
+const STEPS_MIN: f64 = 3.0;
+
 /// The pairs of a step.
 pub struct ClothPairs {
     /// Of faces, in their boxes.
     tree: Bvh,
     workspace: BvhWorkspace,
     boxes: Boxes,
-    /// What boxes move along with: where the step's end is seen from its start (m).
+    /// Mean position where the boxes were made (m).
+    centre: DVec3,
+    /// How far boxes have moved along when the step ends (m).
     drift: DVec3,
     found: Vec<ClothPair>,
+    /// How much farther boxes reach than the step that they were made for asks (m).
+    room: f64,
 }
 
 /// Boxes around the ways of nodes, and of edges and faces around their nodes'.
@@ -69,8 +80,8 @@ impl ClothPairs {
     pub fn new(positions: &[DVec3], topology: &Topology) -> Self {
         let boxes = Boxes::new(positions.iter().map(|&x| Aabb::new(x, x)).collect(), topology);
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes.face);
-        let (workspace, drift) = (BvhWorkspace::default(), DVec3::ZERO);
-        Self { tree, workspace, boxes, drift, found: Vec::new() }
+        let (workspace, centre, drift) = (BvhWorkspace::default(), DVec3::ZERO, DVec3::ZERO);
+        Self { tree, workspace, boxes, centre, drift, found: Vec::new(), room: 0.0 }
     }
 
     /// Finds the pairs for a step from `start`, on which nodes are expected to go `way` (m): boxes
@@ -85,11 +96,42 @@ impl ClothPairs {
         way: impl Fn(usize) -> DVec3,
         reach: f64,
     ) {
-        let count = start.len().max(1) as f64;
-        self.drift = (0..start.len()).map(&way).sum::<DVec3>() / count;
+        self.find_with_room(topology, start, &way, reach, 0.0);
+    }
+
+    /// As [`find`](Self::find), but where the cloth is slow boxes have `room` (m) beyond the reach, and
+    /// what has been found holds for all steps that keep to it.
+    pub fn find_or_keep(
+        &mut self,
+        topology: &Topology,
+        start: &[DVec3],
+        way: impl Fn(usize) -> DVec3,
+        reach: f64,
+        room: f64,
+    ) {
+        if self.room > 0.0 && self.keep(topology, start, &way, reach) {
+            return;
+        }
+        let mean = mean(start.len(), &way);
+        let is_fast = |&n: &usize| STEPS_MIN * (way(n) - mean).length() > room;
+        let room =
+            if are_few((0..start.len()).filter(is_fast).count(), start) { room } else { 0.0 };
+        self.find_with_room(topology, start, &way, reach, room);
+    }
+
+    fn find_with_room(
+        &mut self,
+        topology: &Topology,
+        start: &[DVec3],
+        way: &impl Fn(usize) -> DVec3,
+        reach: f64,
+        room: f64,
+    ) {
+        self.room = room;
+        self.centre = mean(start.len(), |n| start[n]);
+        self.drift = mean(start.len(), way);
         for (node, (&x, own)) in start.iter().zip(&mut self.boxes.node).enumerate() {
-            let end = x + (way(node) - self.drift);
-            *own = Aabb::new(x.min(end), x.max(end)).loosened(reach);
+            *own = around([x, x + (way(node) - self.drift)]).loosened(reach + room);
         }
         self.boxes.fit(topology);
         for (index, of_face) in self.boxes.face.iter().enumerate() {
@@ -102,20 +144,55 @@ impl ClothPairs {
         self.tree.traverse_bvtt_single_tree::<false>(&mut self.workspace, &mut push);
     }
 
+    /// Makes the pairs hold for another step, if that takes larger boxes for few nodes only; `false`,
+    /// and nothing is done, if not.
+    fn keep(
+        &mut self,
+        topology: &Topology,
+        start: &[DVec3],
+        way: &impl Fn(usize) -> DVec3,
+        reach: f64,
+    ) -> bool {
+        let so_far = mean(start.len(), |n| start[n]) - self.centre;
+        let drift = so_far + mean(start.len(), way);
+        let asked = |node: usize| {
+            let ends = [start[node] - so_far, start[node] + way(node) - drift];
+            around(ends).loosened(reach)
+        };
+        let out: Vec<usize> =
+            (0..start.len()).filter(|&n| !self.boxes.node[n].contains(&asked(n))).collect();
+        if !are_few(out.len(), start) {
+            return false;
+        }
+        self.drift = drift;
+        for &node in &out {
+            self.boxes.node[node].merge(&asked(node).loosened(self.room));
+        }
+        self.add_pairs_of(topology, &out);
+        true
+    }
+
     /// Sees to it that the pairs hold for nodes that end where they do: those that left their
     /// boxes get boxes that reach farther by `reach` (m), and pairs are added.
     pub fn cover(&mut self, topology: &Topology, ends: &[DVec3], reach: f64) {
-        let mut is_out = vec![false; ends.len()];
+        let mut out = Vec::new();
         for (node, (x, own)) in ends.iter().zip(&mut self.boxes.node).enumerate() {
             let end = *x - self.drift;
             if end.clamp(own.mins, own.maxs) != end {
-                is_out[node] = true;
+                out.push(node);
                 own.merge(&Aabb::new(end, end).loosened(reach));
             }
         }
-        if !is_out.contains(&true) {
+        self.add_pairs_of(topology, &out);
+    }
+
+    /// Adds the pairs that come of some nodes' larger boxes.
+    fn add_pairs_of(&mut self, topology: &Topology, nodes: &[usize]) {
+        if nodes.is_empty() {
             return;
         }
+        let mut is_out = vec![false; self.boxes.node.len()];
+        nodes.iter().for_each(|&n| is_out[n] = true);
         self.boxes.fit(topology);
         let is_larger =
             |f: u32| topology.triangles()[f as usize].iter().any(|&n| is_out[n as usize]);
@@ -221,6 +298,19 @@ impl Boxes {
             }
         }
     }
+}
+
+fn around([start, end]: [DVec3; 2]) -> Aabb {
+    Aabb::new(start.min(end), start.max(end))
+}
+
+/// Of as many values; zero of none.
+fn mean(count: usize, value: impl Fn(usize) -> DVec3) -> DVec3 {
+    (0..count).map(value).sum::<DVec3>() / count.max(1) as f64
+}
+
+fn are_few(count: usize, nodes: &[DVec3]) -> bool {
+    count as f64 <= OTHERS_SHARE_MAX * nodes.len() as f64
 }
 
 fn meet(a: &Aabb, b: &Aabb) -> bool {

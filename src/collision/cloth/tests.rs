@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
-use super::pairs::ClothPair;
+use super::pairs::{ClothPair, ClothPairs};
 use super::stop::{ClothSearch, stop_cloth};
 use super::zones::Zones;
 use super::*;
@@ -16,6 +16,8 @@ use crate::remesh::{Change, EditGuard};
 const SETTINGS: Contact =
     Contact { thickness: 0.01, stiffness: 1e6, friction_cloth: 0.6, friction_obstacle: 0.3 };
 const DT: f64 = 5e-3;
+
+mod keeping;
 
 /// A square sheet of n x n cells with a side of 1 m, placed in the world.
 fn sheet(n: u32, place: impl Fn(DVec2) -> DVec3) -> Mesh {
