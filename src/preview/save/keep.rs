@@ -2,8 +2,12 @@
 
 use jsonc_parser::ast;
 use jsonc_parser::common::Ranged;
-use jsonc_parser::{CollectOptions, CommentCollectionStrategy, parse_to_ast, parse_to_serde_value};
-use serde_json::{Map, Value};
+use jsonc_parser::tokens::Token;
+use jsonc_parser::{
+    CollectOptions, CommentCollectionStrategy, Scanner, ScannerOptions, parse_to_ast,
+    parse_to_serde_value,
+};
+use serde_json::{Map, Number, Value};
 
 use super::entries::{Entries, Entry};
 use super::layout::{LINE_MAX, indentation};
@@ -125,7 +129,8 @@ fn pair(said: &[Option<Value>], wanted: &mut [Wanted<'_>], is_it: fn(&Value, &Va
 }
 
 fn has_same_identity(old: &Value, new: &Value) -> bool {
-    old.get(IDENTITY).zip(new.get(IDENTITY)).is_some_and(|(old, new)| is_same(old, new))
+    let number = |value: &Value| value.get(IDENTITY).and_then(Value::as_f64);
+    number(old).zip(number(new)).is_some_and(|(old, new)| old == new)
 }
 
 /// As a key that was moved in time alone.
@@ -181,8 +186,7 @@ impl Pieces<'_> {
             self.is_remark_open = false;
         }
         self.push(&[piece]);
-        let last_line = piece.rsplit('\n').next().unwrap_or(piece);
-        self.is_remark_open |= last_line.contains("//");
+        self.is_remark_open |= ends_in_line_remark(piece);
     }
 
     fn push(&mut self, pieces: &[&str]) {
@@ -200,10 +204,11 @@ fn says(text: &str) -> Option<Value> {
     parse_to_serde_value(text, &SYNTAX).ok()
 }
 
-/// The same, in whichever way numbers are written.
+/// The same, in whichever way numbers are written: what is told apart when settings are read is told
+/// apart here.
 fn is_same(a: &Value, b: &Value) -> bool {
     match (a, b) {
-        (Value::Number(a), Value::Number(b)) => a.as_f64() == b.as_f64(),
+        (Value::Number(a), Value::Number(b)) => is_same_number(a, b),
         (Value::Array(a), Value::Array(b)) => {
             a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_same(a, b))
         }
@@ -213,6 +218,25 @@ fn is_same(a: &Value, b: &Value) -> bool {
         }
         _ => a == b,
     }
+}
+
+/// Whole numbers to the last digit, all others to the bit: 0 is not -0.0.
+fn is_same_number(a: &Number, b: &Number) -> bool {
+    match a.is_f64() || b.is_f64() {
+        true => a.as_f64().map(f64::to_bits) == b.as_f64().map(f64::to_bits),
+        false => a == b,
+    }
+}
+
+/// Whether brackets, blanks and remarks end in a remark that goes on to the end of its line.
+fn ends_in_line_remark(piece: &str) -> bool {
+    let mut scanner = Scanner::new(piece, &ScannerOptions::default());
+    let mut is_open = false;
+    // What is no JSON ends it: then the last remark decides.
+    while let Ok(Some(token)) = scanner.scan() {
+        is_open = matches!(token, Token::CommentLine(_)) && scanner.token_end() == piece.len();
+    }
+    is_open
 }
 
 fn has_remark(text: &str) -> bool {

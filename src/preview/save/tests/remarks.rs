@@ -93,6 +93,26 @@ fn a_remark_to_the_end_of_its_line_takes_nothing_into_itself() {
     assert!(saved.contains("// a\n"), "{saved}");
 }
 
+#[test]
+fn a_remark_that_closes_leaves_what_follows_on_its_line() {
+    let shot = "{\"shotsilk\": 1, \"camera\": {\"keys\": [{\"frame\": 0}, /* http://a.b */ \
+                {\"frame\": 1}, /* // */ {\"frame\": 2}]}}";
+    let camera = json!({"keys": [{"frame": 0}, {"frame": 1.5}, {"frame": 2}]});
+    let saved = saved_text(shot, &edits([("camera", camera)])).unwrap();
+    assert_eq!(saved, shot.replace("{\"frame\": 1}", "{\"frame\": 1.5}"));
+}
+
+#[test]
+fn numbers_that_differ_in_a_sign_or_in_the_last_digit_are_written() {
+    let mut camera = camera();
+    camera["keys"][0]["eye"][0] = json!(-0.0);
+    assert_eq!(saved(camera), SHOT.replace("[0.0, -3, 1]", "[-0.0, -3, 1]"));
+    let shot = "{\"shotsilk\": 1, \"camera\": {\"seed\": 9007199254740993, \"fps\": 24}}";
+    let camera = json!({"seed": 9_007_199_254_740_992_u64, "fps": 24.0});
+    let saved = saved_text(shot, &edits([("camera", camera)])).unwrap();
+    assert_eq!(saved, shot.replace("0993", "0992"));
+}
+
 /// Keys of a camera as the text of a shot has them, each with a remark of its own.
 fn text_of(frames: &[u32], style: &[usize]) -> String {
     let one = |(number, frame): (usize, &u32)| {
