@@ -19,8 +19,8 @@ pub struct PendingFile {
 }
 
 impl PendingFile {
-    /// Creates the temporary file beside `path`, with the permissions of a file that is there: before the work starts, so that an output which
-    /// cannot be written is known at once. Those that killed programs have left there go.
+    /// Creates the temporary file beside `path`: before the work starts, so that an output which cannot
+    /// be written is known at once. Those that killed programs have left there go.
     ///
     /// # Errors
     /// If the folder is missing or cannot be written, or `path` is a folder.
@@ -38,9 +38,6 @@ impl PendingFile {
             // Its text would name the temporary file.
             .map_err(|error| io::Error::from(error.kind()))
             .with_context(cannot)?;
-        if let Ok(about) = fs::metadata(path) {
-            file.as_file().set_permissions(about.permissions()).with_context(cannot)?;
-        }
         Ok(Self { file, path: path.to_owned() })
     }
 
@@ -57,12 +54,30 @@ impl PendingFile {
         self.file.path()
     }
 
-    /// What was written to the temporary path is whole.
+    /// As [`PendingFile::write`], but on the disk before it takes the place of what is there: whatever
+    /// happens to the machine, the old file is left or the new one.
+    ///
+    /// # Errors
+    /// If the file system refuses.
+    pub fn write_lastingly(self, contents: &[u8]) -> Result<()> {
+        let cannot = || format!("cannot write {:?}", self.path.display());
+        self.file.as_file().write_all(contents).with_context(cannot)?;
+        self.file.as_file().sync_all().with_context(cannot)?;
+        self.finish()
+    }
+
+    /// What was written to the temporary path is whole. It takes over the permissions of a file that is
+    /// there, where the file system has any: not before, since a file that nobody may write can neither
+    /// be written nor, left by a killed program, be found to be nobody's.
     ///
     /// # Errors
     /// If the file system refuses.
     pub fn finish(self) -> Result<()> {
         let cannot = || format!("cannot write {:?}", self.path.display());
+        if let Ok(about) = fs::metadata(&self.path) {
+            // An output with other permissions is better than none.
+            let _ = fs::set_permissions(self.file.path(), about.permissions());
+        }
         self.file.persist(&self.path).map_err(|e| e.error).with_context(cannot)?;
         Ok(())
     }
@@ -182,6 +197,24 @@ mod tests {
         fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
         PendingFile::create(&path).unwrap().write(b"new").unwrap();
         assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o640);
+        assert_eq!(fs::read_to_string(&path).unwrap(), "new");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn another_program_may_write_what_takes_the_place_of_a_file_that_nobody_may_write() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.mp4");
+        fs::write(&path, "old").unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o444)).unwrap();
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o777;
+        let pending = PendingFile::create(&path).unwrap();
+        // The superuser may write any file: only the permissions show it there.
+        assert_ne!(mode(pending.temporary_path()) & 0o200, 0);
+        fs::write(pending.temporary_path(), "new").unwrap();
+        pending.finish().unwrap();
+        assert_eq!(mode(&path), 0o444);
         assert_eq!(fs::read_to_string(&path).unwrap(), "new");
     }
 

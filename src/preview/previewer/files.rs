@@ -184,6 +184,6 @@ fn is_native(text: &str) -> bool {
 
 /// The file is the old one or the new one, never a part.
 fn write_whole(path: &Path, text: &str) -> Result<(), String> {
-    let write = || PendingFile::create(path)?.write(text.as_bytes());
+    let write = || PendingFile::create(path)?.write_lastingly(text.as_bytes());
     write().map_err(|error| format!("{error:#}"))
 }
