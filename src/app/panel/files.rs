@@ -15,7 +15,7 @@ pub struct FilesPanel {
     folder: PathBuf,
     /// What is typed or chosen.
     path: String,
-    /// Read when the folder was entered.
+    /// Read when the folder was entered or the panel opened.
     entries: Option<Result<Vec<Entry>, String>>,
 }
 
@@ -53,7 +53,6 @@ impl FilesPanel {
                 self.folder(ui, actions);
             });
         if !open {
-            self.entries = None;
             actions.push(Action::SetPanel { panel: PanelName::Files, open: false });
         }
     }
@@ -127,6 +126,11 @@ impl FilesPanel {
     fn enter(&mut self, folder: &Path) {
         self.folder = folder.to_owned();
         self.path.clear();
+        self.entries = None;
+    }
+
+    /// The panel is not shown: who knows what the folder holds when it is again.
+    pub fn rest(&mut self) {
         self.entries = None;
     }
 }

@@ -86,6 +86,8 @@ impl Panels {
         }
         if look.files_panel {
             self.files.show(ui, context, actions);
+        } else {
+            self.files.rest();
         }
         if look.export_panel {
             self.export.show(ui, context, actions);

@@ -42,3 +42,19 @@ fn what_has_been_opened_closes_the_panel() {
     seat.until("the shot again", |p| !p.is_opening() && !p.state().look.files_panel);
     assert!(seat.previewer().opening_failure().is_none());
 }
+
+#[test]
+fn what_has_been_saved_is_listed_when_the_panel_is_opened_again() {
+    let mut seat = Seat::take();
+    seat.act(Action::SetPanel { panel: FILES, open: true });
+    let folder = seat.stage.folder.path().display().to_string();
+    type_path(&mut seat, &folder);
+    seat.press(egui::Key::Enter);
+    assert!(seat.says("shot.json") && !seat.says("other.json"));
+    type_path(&mut seat, "other.json");
+    seat.click("Save as");
+    seat.until("the saved shot", |p| !p.is_opening() && !p.state().look.files_panel);
+    seat.act(Action::SetPanel { panel: FILES, open: true });
+    // In the folder, and among what was open before.
+    assert_eq!(seat.count_of("other.json"), 2);
+}

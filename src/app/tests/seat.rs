@@ -181,6 +181,11 @@ impl Seat {
         self.desk.query_all_by_label(words).next().is_some()
     }
 
+    /// How many things say just this.
+    pub fn count_of(&self, words: &str) -> usize {
+        self.desk.query_all_by_label(words).count()
+    }
+
     /// Whether something says this among other things.
     pub fn mentions(&self, words: &str) -> bool {
         self.desk.query_all_by_label_contains(words).next().is_some()
