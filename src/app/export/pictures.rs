@@ -42,12 +42,15 @@ impl<'a> Pictures<'a> {
     /// # Errors
     /// If there is no such adapter, or the shot's camera is asked for and cannot be used.
     pub fn new(task: Task<'a>) -> Result<Self> {
-        let camera = task.supply.camera().map(Camera::of).transpose()?;
-        let shape = match (&task.request.what, &task.request.view) {
+        let camera = task.supply.camera().map(Camera::of);
+        let (camera, shape) = match (&task.request.what, &task.request.view) {
             (ExportKind::Sheet { .. }, _) | (_, ExportView::Shot | ExportView::Both(_)) => {
-                camera.as_ref().ok_or_else(no_camera)?.path.view(0.0)
+                let camera = camera.ok_or_else(no_camera)??;
+                let view = camera.path.view(0.0);
+                (Some(camera), view)
             }
-            (_, ExportView::Witness(view)) => *view,
+            // It shows the shot camera, if there is one that can be shown.
+            (_, ExportView::Witness(view)) => (camera.and_then(Result::ok), *view),
         };
         let size = size_of_width(&shape, task.request.width);
         let size = match task.request.what {
@@ -155,9 +158,11 @@ impl<'a> Pictures<'a> {
                 ExportView::Both(_) => "shot camera | witness",
             },
             frame: i64::from(number) + self.info.first_frame,
-            lens: match &self.camera {
-                Some(camera) => camera.path.lens(f64::from(number)),
-                None => Lens::FieldOfView { fov_y: WITNESS_FOV_Y },
+            lens: match (&self.task.request.view, &self.camera) {
+                (ExportView::Shot | ExportView::Both(_), Some(camera)) => {
+                    camera.path.lens(f64::from(number))
+                }
+                _ => Lens::FieldOfView { fov_y: WITNESS_FOV_Y },
             },
             settings_hash: self.task.settings_hash(&self.info, number)?,
         })

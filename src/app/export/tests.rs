@@ -30,7 +30,7 @@ struct Reel {
     other_hashes: BTreeMap<u32, String>,
     /// What a frame takes to come.
     delay: Duration,
-    has_no_camera: bool,
+    camera: Option<CameraPath>,
 }
 
 impl Reel {
@@ -43,7 +43,7 @@ impl Reel {
             frames: (0..count).map(rising).collect(),
             other_hashes: BTreeMap::new(),
             delay: Duration::ZERO,
-            has_no_camera: false,
+            camera: Some(driving_camera()),
         }
     }
 }
@@ -65,26 +65,7 @@ impl FrameSupply for Reel {
     }
 
     fn camera(&self) -> Option<CameraPath> {
-        if self.has_no_camera {
-            return None;
-        }
-        let aperture_mm = DVec2::new(36.0, 24.0);
-        let key = |frame: f64, x: f64| CameraKey {
-            frame,
-            eye: DVec3::new(x, -1.6, 0.9),
-            target: DVec3::ZERO,
-            up: DVec3::Z,
-            lens: Lens::FilmBack { focal_mm: 35.0, aperture_mm, offset_mm: DVec2::ZERO },
-            cut: false,
-        };
-        Some(CameraPath {
-            name: "drive".to_owned(),
-            resolution: [320, 180],
-            pixel_aspect: 1.0,
-            near: 0.05,
-            far: 40.0,
-            track: Track::Keys(vec![key(0.0, -0.6), key(20.0, 0.9)]),
-        })
+        self.camera.clone()
     }
 
     fn info(&self) -> RunInfo {
@@ -102,6 +83,26 @@ impl FrameSupply for Reel {
             adapter: None,
             settings: json!({}),
         }
+    }
+}
+
+fn driving_camera() -> CameraPath {
+    let aperture_mm = DVec2::new(36.0, 24.0);
+    let key = |frame: f64, x: f64| CameraKey {
+        frame,
+        eye: DVec3::new(x, -1.6, 0.9),
+        target: DVec3::ZERO,
+        up: DVec3::Z,
+        lens: Lens::FilmBack { focal_mm: 35.0, aperture_mm, offset_mm: DVec2::ZERO },
+        cut: false,
+    };
+    CameraPath {
+        name: "drive".to_owned(),
+        resolution: [320, 180],
+        pixel_aspect: 1.0,
+        near: 0.05,
+        far: 40.0,
+        track: Track::Keys(vec![key(0.0, -0.6), key(20.0, 0.9)]),
     }
 }
 
@@ -202,7 +203,7 @@ fn a_still_is_a_picture_of_the_view_with_the_strip_under_it() {
 fn without_a_shot_camera_the_witness_can_be_exported_and_nothing_else() {
     let folder = folder();
     let to = folder.path().join("still.png");
-    let reel = || Reel { has_no_camera: true, ..Reel::new(2) };
+    let reel = || Reel { camera: None, ..Reel::new(2) };
     let bare = request(ExportKind::Still { frame: 1 }, &to);
     let seen = ExportRequest {
         view: ExportView::Witness(witness()),
@@ -217,6 +218,29 @@ fn without_a_shot_camera_the_witness_can_be_exported_and_nothing_else() {
     }
     let run = request(ExportKind::Run { first: 0, last: 1 }, &folder.path().join("run"));
     assert_eq!(done(run, reel()), 2);
+}
+
+#[test]
+fn the_witness_needs_no_camera_that_can_be_used_and_its_strip_names_its_own_lens() {
+    let folder = folder();
+    let to = folder.path().join("still.png");
+    let bare = request(ExportKind::Still { frame: 1 }, &to);
+    let seen = ExportRequest {
+        view: ExportView::Witness(witness()),
+        width: 640,
+        burn_in: BurnIn::Strip,
+        ..bare.clone()
+    };
+    let unusable = CameraPath { near: -1.0, ..driving_camera() };
+    let strip = |camera: Option<CameraPath>| {
+        done(seen.clone(), Reel { camera, ..Reel::new(2) });
+        let page = image::open(&to).unwrap().into_rgba8();
+        image::imageops::crop_imm(&page, 0, 640, 640, page.height() - 640).to_image()
+    };
+    let [none, broken, other] = [None, Some(unusable.clone()), Some(driving_camera())].map(strip);
+    assert!(none.height() > 0 && none == broken && none == other);
+    let why = why_not(bare, Reel { camera: Some(unusable), ..Reel::new(2) });
+    assert!(why.contains("the shot's camera cannot be used"), "{why}");
 }
 
 #[test]
