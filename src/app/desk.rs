@@ -183,6 +183,12 @@ impl Desk {
         self.exports.is_running()
     }
 
+    /// Why there is nothing of the export that was asked for last; `None` if there is, if it is going on
+    /// or was cancelled, and while a question about it is open.
+    pub fn unwritten_export(&self) -> Option<&str> {
+        self.exports.unwritten()
+    }
+
     /// A new title for the window, once.
     pub fn take_title(&mut self) -> Option<String> {
         self.title.take()

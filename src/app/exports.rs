@@ -22,11 +22,23 @@ pub struct Exports {
     adapter: AdapterChoice,
     wake: Wake,
     job: Option<ExportJob>,
+    /// What the user is being asked about.
+    asked: Option<Asked>,
+    /// Why the export that was asked for last was not made.
+    unwritten: Option<String>,
+}
+
+/// An export as it was when it was asked for: while the question stands, time and settings may go on.
+struct Asked {
+    /// What the answer asks for.
+    export: Export,
+    request: ExportRequest,
+    supply: Supply,
 }
 
 impl Exports {
     pub fn new(adapter: AdapterChoice, wake: Wake) -> Self {
-        Self { adapter, wake, job: None }
+        Self { adapter, wake, job: None, asked: None, unwritten: None }
     }
 
     pub fn is_running(&self) -> bool {
@@ -35,6 +47,11 @@ impl Exports {
 
     pub fn progress(&self) -> Option<ExportProgress> {
         self.job.as_ref().map(ExportJob::progress)
+    }
+
+    /// Why there is nothing of the export that was asked for last.
+    pub fn unwritten(&self) -> Option<&str> {
+        self.unwritten.as_deref()
     }
 
     pub fn cancel(&self) {
@@ -51,8 +68,15 @@ impl Exports {
         witness: Option<View>,
         previewer: &mut Previewer,
     ) {
+        self.unwritten = None;
         if self.job.is_some() {
-            previewer.say(Level::Note, "an export is going on: wait for it or cancel it");
+            let why = "an export is going on: wait for it or cancel it";
+            previewer.say(Level::Note, why);
+            self.unwritten = Some(why.to_owned());
+            return;
+        }
+        if let Some(asked) = self.asked.take_if(|asked| asked.export == export) {
+            self.begin(asked.request, asked.supply);
             return;
         }
         match self.request(&export, options, witness, previewer) {
@@ -60,25 +84,41 @@ impl Exports {
                 let existing = in_the_way(&request, supply.info.first_frame);
                 if let Some(what) = existing.filter(|_| !export.overwrite) {
                     let export = Export { overwrite: true, ..export };
-                    previewer.ask_before_overwriting(what, Action::Export { export });
+                    let action = Action::Export { export: export.clone() };
+                    previewer.ask_before_overwriting(what, action);
+                    self.asked = Some(Asked { export, request, supply });
                     return;
                 }
-                let wake = self.wake.clone();
-                self.job = Some(start(request, Box::new(supply), self.adapter.clone(), wake));
+                self.begin(request, supply);
             }
-            Err(why) => previewer.say(Level::Warning, why),
+            Err(why) => {
+                previewer.say(Level::Warning, why.clone());
+                self.unwritten = Some(why);
+            }
         }
     }
 
-    /// Says how an export has ended.
+    fn begin(&mut self, request: ExportRequest, supply: Supply) {
+        let wake = self.wake.clone();
+        self.job = Some(start(request, Box::new(supply), self.adapter.clone(), wake));
+    }
+
+    /// Says how an export has ended, and forgets what nobody is asked about any more.
     pub fn look_after(&mut self, previewer: &mut Previewer) {
+        let question = previewer.state().overwriting.as_ref().map(|asked| &asked.action);
+        self.asked.take_if(
+            |asked| !matches!(question, Some(Action::Export { export }) if *export == asked.export),
+        );
         let Some(progress) = self.progress() else { return };
         match progress.state {
             ExportState::Running => return,
             ExportState::Done(path) => {
                 previewer.say(Level::Note, format!("exported {:?}", path.display()));
             }
-            ExportState::Failed(why) => previewer.say(Level::Error, format!("not exported: {why}")),
+            ExportState::Failed(why) => {
+                previewer.say(Level::Error, format!("not exported: {why}"));
+                self.unwritten = Some(why);
+            }
             ExportState::Cancelled(left) => previewer.say(Level::Note, left),
         }
         self.job = None;

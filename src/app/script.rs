@@ -53,7 +53,7 @@ pub enum ScriptError {
     Read { path: PathBuf, source: std::io::Error },
     #[error("{0}")]
     Parse(String),
-    /// Nothing else was opened in its place.
+    /// Nothing was opened after it.
     #[error("{0}")]
     NotOpened(String),
     #[error("step {step} of the script, {what}: {why}")]

@@ -1,5 +1,7 @@
 //! Scripts replayed in memory: no display is needed.
 
+use std::path::Path;
+
 use serde_json::{Value, json};
 
 use super::picture::{
@@ -129,17 +131,45 @@ fn a_script_whose_shot_cannot_be_read_ends_as_with_bad_input() {
     }
 }
 
+/// With further fields of the export.
+fn still(to: &Path, more: Value) -> Value {
+    let mut export = json!({
+        "kind": "still", "viewport": "shot", "width": 64, "burn-in": false, "to": to
+    });
+    export.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+    json!({"act": {"export": {"export": export}}})
+}
+
+#[test]
+fn a_script_ends_when_its_exports_are_done_and_fails_if_one_of_them_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().join("still.png");
+    let first = json!({"wait-for-frames": {"first": 0, "last": 0}});
+    let halt = json!({"act": {"simulate": {"on": false}}});
+    let last = json!({"act": "go-to-end"});
+    let good = still(&to, json!({}));
+    succeeded(&preview(folder.path(), &json!([first, halt, good])).output().unwrap());
+    assert!(image::open(&to).is_ok());
+    std::fs::remove_file(&to).unwrap();
+    let narrow = still(&to, json!({"width": 1}));
+    for (steps, why) in [
+        (json!([first, halt, narrow]), "cannot be 1 px wide"),
+        (json!([first, halt, last, good]), "is not simulated yet"),
+        (json!([first, halt, last, good, {"wait": {"seconds": 0.1}}]), "is not simulated yet"),
+    ] {
+        let output = preview(folder.path(), &steps).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{steps}: {said}");
+        assert!(said.contains("not exported") && said.contains(why), "{said}");
+        assert!(!to.exists(), "{steps}");
+    }
+}
+
 #[test]
 fn a_script_writes_over_files_only_if_it_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().join("still.png");
-    let still = |more: Value| {
-        let mut export = json!({
-            "kind": "still", "viewport": "shot", "width": 64, "burn-in": false, "to": to
-        });
-        export.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
-        json!({"act": {"export": {"export": export}}})
-    };
+    let still = |more| still(&to, more);
     let first = json!({"wait-for-frames": {"first": 0, "last": 0}});
     let halt = json!({"act": {"simulate": {"on": false}}});
     let run = |steps: &[Value]| preview(folder.path(), &json!(steps)).output().unwrap();

@@ -43,7 +43,7 @@ impl Player {
 
     /// Whether nothing is left to be done or to be waited for.
     pub fn is_done(&self, desk: &Desk) -> bool {
-        let is_idle = !desk.has_actions() && !desk.previewer().is_opening();
+        let is_idle = !desk.has_actions() && !desk.previewer().is_opening() && !desk.is_exporting();
         self.steps.is_empty() && self.inputs.is_empty() && is_idle
     }
 
@@ -68,6 +68,7 @@ impl Player {
             input.events.extend(events);
             return Ok(Request::Nothing);
         }
+        check_written(desk)?;
         let began = *self.since.get_or_insert(now);
         let Some(step) = self.steps.front().cloned() else { return Ok(Request::Nothing) };
         let outcome = self.carry_out(&step, desk, now - began);
@@ -215,10 +216,23 @@ fn button(pos: egui::Pos2, button: PointerButton, pressed: bool) -> Event {
 /// How a script has ended.
 ///
 /// # Errors
-/// If its shot could not be opened, or it has left a question open.
+/// If its shot could not be opened, it has left a question open, or what it would export is not there.
 pub fn check_ended(desk: &Desk) -> Result<()> {
     check_opened(desk)?;
-    check_answered(desk)
+    check_answered(desk)?;
+    check_written(desk)?;
+    if desk.is_exporting() {
+        bail!("the script quits before its export is done: let it wait until idle");
+    }
+    Ok(())
+}
+
+/// What a script exports is there, or it has failed.
+fn check_written(desk: &Desk) -> Result<()> {
+    match desk.unwritten_export() {
+        Some(why) => bail!("not exported: {why}"),
+        None => Ok(()),
+    }
 }
 
 /// A script that looks at the question, or clicks on its answer.
@@ -246,7 +260,7 @@ fn check_answered(desk: &Desk) -> Result<()> {
     }
 }
 
-/// A script is for a shot: one that cannot be read, and no other in its place, is bad input.
+/// A script is for a shot: one that cannot be read, and none opened after it, is bad input.
 ///
 /// # Errors
 /// In the words of whoever read it.

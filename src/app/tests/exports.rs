@@ -7,7 +7,7 @@ use std::time::Instant;
 use egui::accesskit::Role;
 
 use super::seat::Seat;
-use crate::preview::stage::PATIENCE;
+use crate::preview::stage::{LAST, PATIENCE};
 use crate::preview::{Action, Export, ExportKind, PanelName, Viewport};
 
 fn still(to: &Path) -> Action {
@@ -44,6 +44,26 @@ fn a_file_is_written_over_only_when_the_user_says_so() {
         assert_eq!(image::open(&to).is_ok(), is_picture, "{answer}");
     }
     assert!(!seat.is_offered("Write over"));
+}
+
+#[test]
+fn what_is_written_over_is_what_was_asked_for_wherever_time_has_gone_since() {
+    let mut seat = Seat::take_simulated();
+    let [first, last, to] =
+        ["first.png", "last.png", "to.png"].map(|name| seat.stage.folder.path().join(name));
+    seat.act(Action::GoTo { frame: LAST });
+    seat.act(still(&last));
+    wait(&mut seat);
+    seat.act(Action::GoTo { frame: 0 });
+    seat.act(still(&first));
+    wait(&mut seat);
+    fs::write(&to, "another").unwrap();
+    seat.act(still(&to));
+    seat.act(Action::GoTo { frame: LAST });
+    seat.click("Write over");
+    wait(&mut seat);
+    let picture = |path: &Path| image::open(path).unwrap().into_rgba8();
+    assert!(picture(&to) == picture(&first) && picture(&first) != picture(&last));
 }
 
 #[test]
