@@ -90,6 +90,8 @@ pub struct Viewports {
     ranges: Ranges,
     lists: Vec<CachedList>,
     crossings: FoundCrossings,
+    /// What is drawn where there is no frame: always the same, so that it is drawn once.
+    no_frame: Arc<Frame>,
     /// A drag began on a camera that may be moved.
     grabbed: bool,
     /// The shot camera is being moved in its own view.
@@ -118,15 +120,15 @@ struct CachedList {
 #[derive(Clone, Debug)]
 struct Ranges {
     values: SeenRanges,
-    /// The smallest view factor of the frame that was looked at last.
+    /// The smallest view factor of the frames that were looked at last, A's and B's.
     least_factor: f64,
-    /// The frame that was looked at last.
-    seen: Option<Same<Frame>>,
+    /// The frames that were looked at last.
+    seen: Vec<Same<Frame>>,
 }
 
 impl Default for Ranges {
     fn default() -> Self {
-        Self { values: SeenRanges::default(), least_factor: 1.0, seen: None }
+        Self { values: SeenRanges::default(), least_factor: 1.0, seen: Vec::new() }
     }
 }
 
@@ -143,6 +145,7 @@ impl Viewports {
             ranges: Ranges::default(),
             lists: Vec::new(),
             crossings: FoundCrossings::new(wake),
+            no_frame: Arc::default(),
             grabbed: false,
             moves_shot: false,
         }
@@ -229,16 +232,20 @@ impl Viewports {
     fn image(&mut self, ui: &Ui, eye: Eye, side: Side, rect: Rect, size: [u32; 2], share: f32) {
         let pane = &mut self.panes[index(eye, side)];
         pane.wanted = Some(size);
-        let Some((_, id)) = &pane.texture else { return };
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        match side {
-            Side::B => ui.painter().image(*id, rect, whole, Color32::WHITE),
-            Side::A => {
-                let part = Rect::from_min_size(rect.min, vec2(rect.width() * share, rect.height()));
-                let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(share, 1.0));
-                ui.painter().image(*id, part, uv, Color32::WHITE)
-            }
+        let (part, uv) = match side {
+            Side::B => (rect, Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0))),
+            Side::A => (
+                Rect::from_min_size(rect.min, vec2(rect.width() * share, rect.height())),
+                Rect::from_min_max(pos2(0.0, 0.0), pos2(share, 1.0)),
+            ),
         };
+        match &pane.texture {
+            // One that holds what was drawn last is not shown when there is nothing to be drawn.
+            Some((_, id)) if pane.drawn.is_some() => {
+                ui.painter().image(*id, part, uv, Color32::WHITE);
+            }
+            _ => drop(ui.painter().rect_filled(part, 0.0, theme::WELL)),
+        }
     }
 
     /// The edge of the film gate, and what of it is safe.

@@ -184,6 +184,8 @@ pub struct Remembered {
     pub keys: Vec<Option<FrameKey>>,
     /// The shot camera that they were simulated for.
     pub camera: Option<Arc<CameraPath>>,
+    /// The longest look-ahead that they were simulated with (frames).
+    pub anticipation: f64,
     pub settings_hash: String,
 }
 

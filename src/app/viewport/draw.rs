@@ -24,6 +24,9 @@ impl Viewports {
     /// Builds the lists of what has changed: which panes are to be drawn, and what.
     pub fn prepare(&mut self, previewer: &Previewer) -> Vec<(usize, Wanted)> {
         let Some(scenery) = previewer.scenery().cloned() else { return Vec::new() };
+        // One legend is for both sides: their colours wait until both have been seen.
+        let frames = [Side::B, Side::A].map(|side| self.frame_to_draw(side, previewer));
+        self.ranges.see(frames.iter().flatten());
         let mut wanted = Vec::new();
         for (eye, side) in [
             (Eye::Shot, Side::B),
@@ -32,23 +35,31 @@ impl Viewports {
             (Eye::Witness, Side::A),
         ] {
             let Some(size) = self.panes[index(eye, side)].wanted else { continue };
-            let frame = match side {
-                Side::B => previewer.shown().map(|shown| shown.frame.clone()),
-                Side::A => previewer.shown_of_a().cloned(),
-            };
             // Without a frame there is still the camera to be seen.
-            let frame = frame.unwrap_or_default();
-            self.ranges.see(&frame);
+            let frame = frames[side as usize].clone().unwrap_or_else(|| self.no_frame.clone());
             let camera = camera_of(side, previewer, &scenery);
-            if let Some(drawn) = self.wanted((eye, side), size, &frame, previewer, &scenery) {
-                let place = index(eye, side);
-                if self.panes[place].drawn.as_ref() != Some(&drawn) {
-                    let list = self.list(eye, &frame, &drawn, (&scenery, camera.as_ref()));
-                    wanted.push((place, Wanted { list, drawn }));
-                }
+            let place = index(eye, side);
+            let Some(drawn) = self.wanted((eye, side), size, &frame, previewer, &scenery) else {
+                self.panes[place].drawn = None;
+                continue;
+            };
+            if self.panes[place].drawn.as_ref() != Some(&drawn) {
+                let list = self.list(eye, &frame, &drawn, (&scenery, camera.as_ref()));
+                wanted.push((place, Wanted { list, drawn }));
             }
         }
         wanted
+    }
+
+    /// A side's frame, if it has one and the layout a place for it.
+    fn frame_to_draw(&self, side: Side, previewer: &Previewer) -> Option<Arc<Frame>> {
+        let is_wanted = |eye| self.panes[index(eye, side)].wanted.is_some();
+        let is_shown = is_wanted(Eye::Shot) || is_wanted(Eye::Witness);
+        let frame = match side {
+            Side::B => previewer.shown().map(|shown| &shown.frame),
+            Side::A => previewer.shown_of_a(),
+        };
+        frame.filter(|_| is_shown).cloned()
     }
 
     /// Draws what [`Viewports::prepare`] has prepared.
@@ -155,7 +166,7 @@ impl Viewports {
             Eye::Shot => shot?,
             Eye::Witness => witness(self.witness_place(previewer)?, size),
         };
-        let ahead = current + scenery.anticipation();
+        let ahead = current + anticipation_of(side, previewer, scenery);
         let ghost = camera.as_ref().filter(|_| look.ghost).map(|path| path.view(ahead));
         Some(Drawn {
             frame: Same(frame.clone()),
@@ -295,14 +306,19 @@ impl Pane {
 }
 
 impl Ranges {
-    fn see(&mut self, frame: &Arc<Frame>) {
-        let this = Same(frame.clone());
-        if self.seen.as_ref() == Some(&this) {
+    /// Takes in the frames that are shown together; while there are none, all stays as it was.
+    fn see<'f>(&mut self, frames: impl Iterator<Item = &'f Arc<Frame>>) {
+        let shown: Vec<_> = frames.cloned().map(Same).collect();
+        if shown.is_empty() || shown == self.seen {
             return;
         }
-        self.seen = Some(this);
-        self.least_factor = frame.report.view_factor_min;
-        self.values.see(frame);
+        for Same(frame) in shown.iter().filter(|frame| !self.seen.contains(frame)) {
+            self.values.see(frame);
+        }
+        let factors = shown.iter().map(|Same(frame)| frame.report.view_factor_min);
+        // 0 is of frames that tell none.
+        self.least_factor = factors.filter(|&least| least > 0.0).fold(1.0, f64::min);
+        self.seen = shown;
     }
 }
 
@@ -310,6 +326,12 @@ impl Ranges {
 fn camera_of(side: Side, previewer: &Previewer, scenery: &Scenery) -> Option<Arc<CameraPath>> {
     let of_a = previewer.state().a.as_ref().filter(|_| side == Side::A);
     of_a.map_or_else(|| scenery.camera.clone(), |a| a.camera.clone())
+}
+
+/// The longest look-ahead that a side's frames were simulated with (frames).
+fn anticipation_of(side: Side, previewer: &Previewer, scenery: &Scenery) -> f64 {
+    let of_a = previewer.state().a.as_ref().filter(|_| side == Side::A);
+    of_a.map_or_else(|| scenery.anticipation(), |a| a.anticipation)
 }
 
 /// What the witness sees from a place.
@@ -346,5 +368,34 @@ fn view_factor(scenery: &Scenery, least: f64) -> ColourBy {
             ColourBy::ViewFactor(LogRange { end: least, ..range })
         }
         by => by,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::fixture::{frame, square};
+
+    fn seen(number: u32, view_factor_min: f64) -> Arc<Frame> {
+        let mut frame = Frame { number, ..frame([square(0.0, 0.1)]) };
+        frame.report.view_factor_min = view_factor_min;
+        Arc::new(frame)
+    }
+
+    #[test]
+    fn frames_that_are_shown_together_have_the_range_of_both_and_alone_their_own() {
+        let (a, b, untold) = (seen(1, 0.02), seen(1, 0.3), seen(1, 0.0));
+        let mut ranges = Ranges::default();
+        for (shown, least) in [
+            (vec![&b, &a], 0.02),
+            (vec![&a, &b], 0.02),
+            (vec![], 0.02),
+            (vec![&b], 0.3),
+            (vec![&b, &untold], 0.3),
+            (vec![&untold], 1.0),
+        ] {
+            ranges.see(shown.iter().copied());
+            assert_eq!(ranges.least_factor, least, "{}", shown.len());
+        }
     }
 }

@@ -118,12 +118,13 @@ impl Previewer {
     }
 
     fn keep_as_a(&mut self) {
-        let settings_hash = self.open.scenery.as_ref().map(|s| s.settings_hash.clone());
+        let scenery = self.open.scenery.as_ref();
         self.state.a = Some(Remembered {
             version: self.state.version.clone(),
             keys: self.frames.timeline.keys(),
-            camera: self.open.scenery.as_ref().and_then(|scenery| scenery.camera.clone()),
-            settings_hash: settings_hash.unwrap_or_default(),
+            camera: scenery.and_then(|scenery| scenery.camera.clone()),
+            anticipation: scenery.map_or(0.0, |scenery| scenery.anticipation()),
+            settings_hash: scenery.map_or_else(String::new, |s| s.settings_hash.clone()),
         });
         self.showing.of_a = None;
         self.refresh_shown();
