@@ -84,6 +84,7 @@ impl Previewer {
         self.open.scenery = Some(Arc::new(scenery));
         self.open.plan = None;
         self.open.run = Some(run);
+        self.follow_rival();
         self.refresh_shown();
         self.read_ahead();
     }

@@ -15,9 +15,13 @@ impl Previewer {
         self.follow_rival();
     }
 
-    /// Costs of other settings are forgotten; those that are asked for are measured.
+    /// Costs of other settings are forgotten; those that are asked for are measured. Of a finished run
+    /// there is nothing to measure.
     pub(super) fn follow_rival(&mut self) {
-        let Some(plan) = self.open.plan.clone() else { return };
+        let Some(plan) = self.open.plan.clone() else {
+            self.forget_rival();
+            return;
+        };
         let mut requested = plan.requested.clone();
         requested.settings.sizing = SizingMode::Adaptive;
         let after = |parent: &mut Option<FrameKey>, step| {
@@ -38,6 +42,13 @@ impl Previewer {
             let job = Job { scene, settings, start: None, frames: keys };
             self.rival.job = Some(self.rival.engine.begin(job));
         }
+    }
+
+    fn forget_rival(&mut self) {
+        self.end_rival();
+        self.rival.on = false;
+        self.rival.costs.clear();
+        self.rival.keys.clear();
     }
 
     fn end_rival(&mut self) {

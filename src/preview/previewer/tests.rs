@@ -12,8 +12,6 @@ use serde_json::json;
 use super::*;
 use crate::preview::{FrameStatus, Level, Reach};
 use crate::request::Request;
-use crate::run::RunWriter;
-use crate::sim::Simulation;
 use stage::{LAST, SHOT, Stage, bits, straight, windy};
 
 #[test]
@@ -229,17 +227,7 @@ fn a_file_that_is_no_shot_leaves_what_is_open() {
 #[test]
 fn a_finished_run_can_be_scrubbed_and_not_changed() {
     let stage = Stage::set();
-    let requested = stage.request().load().unwrap();
-    let folder = stage.folder.path().join("run");
-    let mut writer =
-        RunWriter::create(&folder, &requested.info, &requested.surfaces(), Default::default())
-            .unwrap();
-    let (mut simulation, frame) =
-        Simulation::start(requested.scene.clone(), requested.settings).unwrap();
-    writer.write(&frame).unwrap();
-    (0..3).for_each(|_| writer.write(&simulation.advance().unwrap()).unwrap());
-    writer.finish().unwrap();
-    let mut p = stage.open(Source::Run(folder), true);
+    let mut p = stage.open(Source::Run(stage.finished_run()), true);
     p.until_opened();
     assert_eq!(p.frame(3).number, 3);
     assert_eq!(p.statuses(), "rrrr");
@@ -388,6 +376,11 @@ fn a_and_b_are_shown_together_and_change_places() {
     let a = bits(&p.frame(10));
     p.act(Action::KeepAsA);
     p.act(Action::SetReach { reach: Reach::FromStart });
+    p.act(Action::Set { path: "view.anticipation_frames".into(), value: json!(5) });
+    p.until_opened();
+    let looks_ahead =
+        [p.0.state.a.as_ref().unwrap().anticipation, p.0.scenery().unwrap().anticipation()];
+    assert_eq!(looks_ahead, [2.0, 5.0]);
     p.act(windy(4.0));
     p.until("b", |p| !p.is_opening() && p.timeline().is_clean(0, LAST));
     p.act(Action::Compare { wipe: Some(0.5) });
@@ -413,6 +406,23 @@ fn the_adaptive_run_counts_costs_and_keeps_no_frames() {
         p.rival_costs().len() == LAST as usize + 1 && p.rival_costs().iter().all(Option::is_some)
     });
     assert_eq!((p.0.store().used(), p.0.simulated()), (used, simulated));
+}
+
+#[test]
+fn the_adaptive_run_and_its_costs_end_where_a_finished_run_is_opened() {
+    let stage = Stage::set();
+    let run = stage.finished_run();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(Action::MeasureAdaptive { on: true });
+    p.until("a cost", |p| p.rival_costs().iter().any(Option::is_some));
+    p.act(Action::Open { path: run });
+    p.until_opened();
+    assert!(matches!(p.0.source(), Source::Run(_)));
+    assert_eq!(p.0.rival(), (false, false));
+    assert!(p.0.rival_costs().is_empty());
+    p.act(Action::MeasureAdaptive { on: true });
+    assert_eq!(p.0.rival(), (false, false));
 }
 
 #[test]

@@ -12,6 +12,7 @@ use tempfile::TempDir;
 use super::super::*;
 use crate::preview::{FrameStatus, Level};
 use crate::request::{FrameRange, Request};
+use crate::run::RunWriter;
 use crate::sim::{Frame, Simulation, SizingMode};
 
 pub const LAST: u32 = 12;
@@ -43,6 +44,21 @@ impl Stage {
             frames: Some(FrameRange { first: 0, last: LAST }),
             sizing: SizingMode::View,
         }
+    }
+
+    /// A run folder with the shot's first four frames.
+    pub fn finished_run(&self) -> PathBuf {
+        let requested = self.request().load().unwrap();
+        let folder = self.folder.path().join("run");
+        let surfaces = requested.surfaces();
+        let mut writer =
+            RunWriter::create(&folder, &requested.info, &surfaces, Default::default()).unwrap();
+        let (mut simulation, frame) =
+            Simulation::start(requested.scene.clone(), requested.settings).unwrap();
+        writer.write(&frame).unwrap();
+        (0..3).for_each(|_| writer.write(&simulation.advance().unwrap()).unwrap());
+        writer.finish().unwrap();
+        folder
     }
 
     pub fn start(&self, simulating: bool) -> Driven {
