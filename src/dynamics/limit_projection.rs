@@ -4,15 +4,19 @@
 //! put back on its limits as position-based dynamics projects constraints
 //! ([`MHHR07`](crate::papers::MHHR07)): along the gradients of its principal stretches and by mass,
 //! which changes neither momentum nor angular momentum. What that costs the faces around it is
-//! passed on in turn. As a replacement of the energy it loses: what a whole sheet hangs on would be
-//! passed on from face to face.
+//! passed on in turn.
+//!
+//! Where handles or loads leave no way within the limits, faces would hand what is too much to and
+//! fro. A patch of cloth that does not come within its limits is therefore left as it was: there the
+//! energy alone holds.
 
 use glam::DVec3;
 
 use super::handles::HandleSpring;
-use super::step::StepState;
+use super::strain_limit::ratios_beyond;
 use super::stretch::Membrane;
 use super::system::{GarmentRanges, System};
+use crate::math::DisjointSets;
 
 /// Faces come back to a limit but for this share of it: less would fight the energy, which lets faces
 /// go up to 1 % beyond under loads.
@@ -20,6 +24,9 @@ const KEPT_TO: f64 = 8e-3;
 
 /// Faces are beyond a limit that are so by more than this share of it.
 const NOTICED_FROM: f64 = 9e-3;
+
+/// A limit is met if it is exceeded by no more than this share of it.
+const MET_TO: f64 = 1e-2;
 
 /// Rounds over the faces beyond limits. What they pass on travels a face a round.
 const ROUNDS_MAX: u32 = 200;
@@ -31,37 +38,43 @@ const PROJECTIONS_PER_FACE_MAX: usize = 10;
 /// Shorter images of a unit length have no direction.
 const STRETCH_MIN: f64 = 1e-9;
 
-/// How many faces were beyond their strain limits by over 0.9 % of the ratio.
+/// A face is left alone that yields less than this share of what it would with all its nodes free:
+/// those that handles hold would make the others go many times as far as it is too long.
+const YIELDING_SHARE_MIN: f64 = 0.05;
+
+/// What became of faces beyond their strain limits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct BeyondLimits {
+pub struct TakenBack {
+    /// By over 0.9 % of a ratio, at first.
     pub found: usize,
-    /// Still, when the rounds had been used up.
+    /// By so much still, in patches that would not come within their limits and stay as they were.
     pub left: usize,
 }
 
 impl System {
-    /// Takes faces back within the strain limits of their fabrics, and gives nodes the velocity of
-    /// what that moves them by in `dt` (s). Nodes in handles stay. Nothing is done to garments
-    /// without limits.
+    /// Takes faces back within the strain limits of their fabrics, where that takes moving nodes
+    /// within a step of `dt` (s) as far as their masses and handles yield. Garments without limits
+    /// keep their bits. Velocities are the caller's business.
     ///
     /// # Panics
-    /// If the state has another node count than the system.
-    pub fn keep_within_limits(
+    /// If there are not as many positions as nodes, or `dt` is not positive.
+    pub fn take_back_within_limits(
         &self,
-        state: &mut StepState,
+        positions: &mut [DVec3],
         handles: &[HandleSpring],
         dt: f64,
-    ) -> BeyondLimits {
-        assert_eq!(state.position.len(), self.node_count(), "positions are those of the system");
-        let mut beyond = self.faces_beyond_limits(&state.position);
+    ) -> TakenBack {
+        assert_eq!(positions.len(), self.node_count(), "positions are those of the system");
+        assert!(dt > 0.0, "a step takes time, not {dt} s");
+        let mut beyond = self.faces_beyond(NOTICED_FROM, positions);
         let found = beyond.len();
         if found == 0 {
-            return BeyondLimits::default();
+            return TakenBack::default();
         }
         let around = FacesAround::new(self.node_count(), &self.membranes);
-        let mut mobility: Vec<f64> = self.masses.iter().map(|mass| mass.recip()).collect();
-        handles.iter().for_each(|handle| mobility[handle.node] = 0.0);
-        let before = state.position.clone();
+        let mobility = self.mobility(handles, dt);
+        let before = positions.to_vec();
+        let mut patches = DisjointSets::new(self.node_count());
         let mut projections_left = PROJECTIONS_PER_FACE_MAX * self.membranes.len();
         for _ in 0..ROUNDS_MAX {
             if beyond.is_empty() || beyond.len() > projections_left {
@@ -69,22 +82,63 @@ impl System {
             }
             projections_left -= beyond.len();
             for &(face, limits) in &beyond {
-                limits.project(&self.membranes[face as usize], &mobility, &mut state.position);
+                let face = &self.membranes[face as usize];
+                limits.project(face, [&mobility, &self.masses], positions);
+                let [a, b, c] = face.nodes.map(|n| n as usize);
+                patches.join(a, b);
+                patches.join(b, c);
             }
-            beyond = self.beyond_around(&beyond, &around, &state.position);
+            beyond = self.beyond_around(&beyond, &around, positions);
         }
-        let ways = state.position.iter().zip(&before).map(|(now, before)| *now - *before);
-        state.velocity.iter_mut().zip(ways).for_each(|(v, way)| *v += way / dt);
-        BeyondLimits { found, left: beyond.len() }
+        if beyond.is_empty() {
+            return TakenBack { found, left: 0 };
+        }
+        self.give_up(&beyond, &mut patches, &before, positions);
+        TakenBack { found, left: self.faces_beyond(NOTICED_FROM, positions).len() }
     }
 
-    /// By number, of all garments.
-    fn faces_beyond_limits(&self, positions: &[DVec3]) -> Vec<(u32, StretchLimits)> {
+    /// Faces beyond a strain limit by more than 1 % of the ratio.
+    pub fn count_beyond_limits(&self, positions: &[DVec3]) -> usize {
+        self.faces_beyond(MET_TO, positions).len()
+    }
+
+    /// Puts the nodes back of patches in which a face is still beyond its limits.
+    fn give_up(
+        &self,
+        beyond: &[(u32, StretchLimits)],
+        patches: &mut DisjointSets,
+        before: &[DVec3],
+        positions: &mut [DVec3],
+    ) {
+        let mut is_given_up = vec![false; positions.len()];
+        for &(face, _) in beyond {
+            for node in self.membranes[face as usize].nodes {
+                is_given_up[patches.root(node as usize)] = true;
+            }
+        }
+        for (node, (now, before)) in positions.iter_mut().zip(before).enumerate() {
+            if is_given_up[patches.root(node)] {
+                *now = *before;
+            }
+        }
+    }
+
+    /// How far a node goes in a step per impulse (1/kg), handles included as they resist it:
+    /// 1 / (m + k dt^2).
+    fn mobility(&self, handles: &[HandleSpring], dt: f64) -> Vec<f64> {
+        let mut inertia = self.masses.clone();
+        handles.iter().for_each(|handle| inertia[handle.node] += handle.stiffness * dt * dt);
+        inertia.iter().map(|inertia| inertia.max(f64::MIN_POSITIVE).recip()).collect()
+    }
+
+    /// By number, of all garments; beyond by more than a share of the limiting ratio.
+    fn faces_beyond(&self, share: f64, positions: &[DVec3]) -> Vec<(u32, StretchLimits)> {
         let of_garment = |garment: &GarmentRanges| {
             let limits = StretchLimits::of(garment)?;
+            let bounds = limits.squares_beyond(share);
             let faces = garment.membranes.clone();
             let is_beyond =
-                move |&face: &usize| limits.are_exceeded(&self.membranes[face], positions);
+                move |&face: &usize| is_outside(bounds, &self.membranes[face], positions);
             Some(faces.filter(is_beyond).map(move |face| (face as u32, limits)))
         };
         self.garments.iter().filter_map(of_garment).flatten().collect()
@@ -108,7 +162,8 @@ impl System {
         near.sort_unstable_by_key(|&(face, _)| face);
         near.dedup_by_key(|&mut (face, _)| face);
         near.retain(|(face, limits)| {
-            limits.are_exceeded(&self.membranes[*face as usize], positions)
+            let bounds = limits.squares_beyond(NOTICED_FROM);
+            is_outside(bounds, &self.membranes[*face as usize], positions)
         });
         near
     }
@@ -127,23 +182,15 @@ impl StretchLimits {
         garment.fabric.strain_limits().map(|ratios| Self { ratios })
     }
 
-    fn loosened(&self, share: f64) -> [f64; 2] {
-        let [least, largest] = self.ratios;
-        [least * (1.0 - share), largest * (1.0 + share)]
-    }
-
-    fn are_exceeded(&self, face: &Membrane, positions: &[DVec3]) -> bool {
-        let gram = face.gradient_of(positions).gram();
-        let mean = 0.5 * gram.trace();
-        let radius = (0.5 * (gram.xx - gram.yy)).hypot(gram.xy);
-        let [least, largest] = self.loosened(NOTICED_FROM).map(|ratio| ratio * ratio);
-        mean + radius > largest || mean - radius < least
+    /// What the squares of principal stretches are between that are beyond by a share at most.
+    fn squares_beyond(&self, share: f64) -> [f64; 2] {
+        ratios_beyond(self.ratios, share).map(|ratio| ratio * ratio)
     }
 
     /// Of C = sigma - limit the gradient by corner i is (g_i . a) F a / sigma, with a the principal
-    /// axis: dx_i = -w_i C dC/dx_i / sum_k w_k |dC/dx_k|^2.
-    fn project(&self, face: &Membrane, mobility: &[f64], positions: &mut [DVec3]) {
-        let [least, largest] = self.loosened(KEPT_TO);
+    /// axis: dx_i = -w_i C dC/dx_i / sum_k w_k |dC/dx_k|^2, w the mobility.
+    fn project(&self, face: &Membrane, [mobility, masses]: [&[f64]; 2], positions: &mut [DVec3]) {
+        let [least, largest] = ratios_beyond(self.ratios, KEPT_TO);
         for is_major in [true, false] {
             let deformation = face.gradient_of(positions);
             let major = deformation.gram().eigen().major_axis;
@@ -155,17 +202,27 @@ impl StretchLimits {
                 continue;
             }
             let slopes = face.gradients.map(|g| g.dot(axis));
-            let yielding = [0, 1, 2].map(|k| mobility[face.nodes[k] as usize] * slopes[k]);
-            let whole: f64 = yielding.iter().zip(&slopes).map(|(y, slope)| y * slope).sum();
-            // Nothing yields where handles hold all that could.
-            if whole <= 0.0 {
+            let own = face.nodes.map(|n| mobility[n as usize]);
+            let whole: f64 = (0..3).map(|k| own[k] * slopes[k] * slopes[k]).sum();
+            let free = face.nodes.map(|n| masses[n as usize].max(f64::MIN_POSITIVE).recip());
+            let all_free: f64 = (0..3).map(|k| free[k] * slopes[k] * slopes[k]).sum();
+            if !(whole > YIELDING_SHARE_MIN * all_free && whole.is_finite()) {
                 continue;
             }
-            for (&node, share) in face.nodes.iter().zip(yielding) {
-                positions[node as usize] -= image * (excess * share / (whole * stretch));
+            for k in 0..3 {
+                let share = own[k] * slopes[k] / (whole * stretch);
+                positions[face.nodes[k] as usize] -= image * (excess * share);
             }
         }
     }
+}
+
+/// Whether the square of a principal stretch is outside of bounds.
+fn is_outside([least, largest]: [f64; 2], face: &Membrane, positions: &[DVec3]) -> bool {
+    let gram = face.gradient_of(positions).gram();
+    let mean = 0.5 * gram.trace();
+    let radius = (0.5 * (gram.xx - gram.yy)).hypot(gram.xy);
+    mean + radius > largest || mean - radius < least
 }
 
 /// The faces around every node.

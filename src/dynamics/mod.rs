@@ -46,7 +46,7 @@ pub mod wind;
 
 pub use contact::ContactPoint;
 pub use handles::HandleSpring;
-pub use limit_projection::BeyondLimits;
+pub use limit_projection::TakenBack;
 pub use solve::{Accuracy, LinearSolver, SolveError, SolverCounts};
 pub use step::{Convergence, StepError, StepForces, StepOutcome, StepState};
 pub use system::System;

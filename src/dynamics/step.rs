@@ -171,7 +171,7 @@ impl System {
         };
         let mut end = StepState { position, velocity };
         if self.is_limited() {
-            self.keep_within_limits(&mut end, forces.handles, dt);
+            self.take_back(&mut end, forces.handles, dt);
         }
         let after = self.solver.counts();
         outcome.solver_iterations = after.iterations - before.iterations;
@@ -181,6 +181,15 @@ impl System {
         finite("position after the step", &end.position)?;
         *state = end;
         Ok(outcome)
+    }
+
+    /// Takes faces back within strain limits, and gives nodes the velocity of what that moves them by.
+    fn take_back(&self, end: &mut StepState, handles: &[HandleSpring], dt: f64) {
+        let before = end.position.clone();
+        if self.take_back_within_limits(&mut end.position, handles, dt).found > 0 {
+            let ways = end.position.iter().zip(&before).map(|(now, before)| *now - *before);
+            end.velocity.iter_mut().zip(ways).for_each(|(v, way)| *v += way / dt);
+        }
     }
 
     /// Roughly solved until the contacts are what they were taken for, then finely.

@@ -1,5 +1,5 @@
 //! What keeps the faces of a fabric within its strain limits; the rest is done by
-//! [`System::keep_within_limits`](super::System::keep_within_limits).
+//! [`System::take_back_within_limits`](super::System::take_back_within_limits).
 
 use super::principal::{StrainBounds, StrainDerivatives};
 use crate::math::SymTensor2;
@@ -55,7 +55,7 @@ impl StrainLimit {
 }
 
 /// Limiting ratios that leave so much more room, a share of either.
-fn ratios_beyond([least, largest]: [f64; 2], share: f64) -> [f64; 2] {
+pub(super) fn ratios_beyond([least, largest]: [f64; 2], share: f64) -> [f64; 2] {
     [least * (1.0 - share), largest * (1.0 + share)]
 }
 

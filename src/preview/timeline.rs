@@ -129,6 +129,7 @@ impl Timeline {
 
     /// The frame is nowhere any more.
     pub fn forget(&mut self, key: FrameKey) {
+        self.known.remove(&key);
         for slot in &mut self.slots {
             if slot.as_ref().is_some_and(|slot| slot.key == key) {
                 *slot = None;

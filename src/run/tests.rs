@@ -168,14 +168,18 @@ fn statistics_have_the_agreed_columns_and_the_frame_numbers_of_the_shot() {
     let text = fs::read_to_string(dir.path().join("stats.csv")).unwrap();
     assert_eq!(
         without_writing_time(&text),
-        "frame,time_s,faces,vertices,nodes,wall_s,cpu_s,obstacles_s,proximity_s,dynamics_s,\
+        format!(
+            "frame,time_s,faces,vertices,nodes,wall_s,cpu_s,obstacles_s,proximity_s,dynamics_s,\
          collision_s,sizing_s,view_s,remesh_s,untangle_s,other_s,view_factor_min,\
-         view_factor_mean,intersections,steps_taken,largest_stretch,\
+         view_factor_mean,intersections,steps_taken,largest_stretch,stretch_99,\
          trapped_nodes,contacts,impacts,degenerate_hinges,splits,collapses,flips,vetoes,\
          solutions,solver_iterations,factorisations,unconverged_steps,\
          elastic_energy,kinetic_energy\n\
-         1001,0,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,,8,0.125,2,5,0,0,2,0,0,0,0,0,0,0,0.5,0.25\n\
-         1002,0.04,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,3,8,0.125,2,5,0,0,2,0,0,0,0,0,0,0,0.5,0.25\n"
+         1001,0,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,,8,0.125,{},2,5,0,0,2,0,0,0,0,0,0,0,0.5,0.25\n\
+         1002,0.04,2,6,4,0.75,0.875,0,0,0.25,0,0,0,0.5,0,0,0.01,0.5,3,8,0.125,{},2,5,0,0,2,0,0,0,0,0,0,0,0.5,0.25\n",
+            frame(0).stretch_of_all_but(0.01),
+            frame(1).stretch_of_all_but(0.01)
+        )
     );
 }
 

@@ -49,6 +49,27 @@ impl Frame {
         self.garments.iter().map(|g| g.node_count()).sum()
     }
 
+    /// The principal stretch minus 1 that no more than such a share of the material area exceeds: with
+    /// share 0 the largest of all faces. 0 without cloth.
+    pub fn stretch_of_all_but(&self, share: f64) -> f64 {
+        let faces = self.garments.iter().flat_map(|mesh| mesh.face_ids().map(move |f| (mesh, f)));
+        let mut stretches: Vec<(f64, f64)> = faces
+            .map(|(mesh, f)| {
+                let [major, _] = mesh.deformation_gradient(f).singular_values();
+                (major - 1.0, mesh.material_area(f))
+            })
+            .collect();
+        stretches.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+        let allowed = share * stretches.iter().map(|(_, area)| area).sum::<f64>();
+        let mut beyond = 0.0;
+        let mut most_stretched_first = stretches.iter();
+        let reached = most_stretched_first.find(|(_, area)| {
+            beyond += area;
+            beyond > allowed
+        });
+        reached.or(stretches.last()).map_or(0.0, |(stretch, _)| *stretch)
+    }
+
     /// # Errors
     /// If there are more or fewer of anything than in the scene.
     pub(super) fn check_belongs_to(&self, scene: &Scene) -> Result<(), SimError> {

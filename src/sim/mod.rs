@@ -4,7 +4,8 @@
 //! start:    take apart, refine and relax what was given -> frame 0
 //! advance:  buckling of what nobody sees
 //!           for each step    obstacles and handles move -> contacts -> implicit step -> resolve
-//!           once             base metric -> view factor -> vertex metric -> remesh -> untangle
+//!           once             base metric -> view factor -> vertex metric -> remesh -> strain limits
+//!                            -> untangle
 //!           publish          a frame that never changes again
 //! ```
 //!
@@ -119,6 +120,7 @@ impl Simulation {
         simulation.perturb();
         simulation.cloth.refit();
         clock.time(Stage::Collision, || simulation.clear_obstacles(&mut report));
+        simulation.take_back_within_limits(&mut clock, &mut report);
         simulation.untangle(Moment::Start, &mut clock, &mut report);
         let frame = simulation.publish(clock, report);
         Ok(Some((simulation, frame)))
@@ -182,7 +184,7 @@ impl Simulation {
             self.refine(&mut clock, &mut report);
         }
         clock.time(Stage::Collision, || self.clear_obstacles(&mut report));
-        self.keep_within_limits(&mut clock, &mut report);
+        self.take_back_within_limits(&mut clock, &mut report);
         self.untangle(Moment::Frame, &mut clock, &mut report);
         Ok(Some(self.publish(clock, report)))
     }
@@ -238,6 +240,7 @@ impl Simulation {
 
     fn publish(&self, mut clock: StageClock, mut report: FrameReport) -> Frame {
         frame::measure(&self.garments, &mut report);
+        self.warn_of_limits(&mut report);
         report.elastic_energy = self.cloth.system.potential_energy(&self.cloth.state);
         report.kinetic_energy = self.cloth.system.kinetic_energy(&self.cloth.state);
         report.stages = clock.finish();

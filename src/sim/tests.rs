@@ -146,6 +146,21 @@ fn a_free_sheet_falls_as_backward_euler_says() {
 }
 
 #[test]
+fn the_stretch_of_all_but_a_share_leaves_out_the_most_stretched() {
+    // The right half is pulled to 1.5 times its length, the left to 1.2 times.
+    let pulled = |u: DVec2| DVec3::new(1.2 * u.x + 0.3 * (u.x - 0.5).max(0.0), u.y, 0.0);
+    let mut scene = scene(square(4, pulled));
+    scene.stages.remeshing = false;
+    scene.stages.dynamics = false;
+    let frame = run(scene, SizingMode::Adaptive, 0).remove(0);
+    for (share, stretch) in [(0.0, 0.5), (0.4, 0.5), (0.6, 0.2), (1.0, 0.2)] {
+        let found = frame.stretch_of_all_but(share);
+        assert!((found - stretch).abs() < 1e-12, "{share}: {found}");
+    }
+    assert!((frame.report.largest_stretch - 0.5).abs() < 1e-12);
+}
+
+#[test]
 fn every_edge_is_valid_after_every_frame() {
     for frame in run(on_a_stone(), SizingMode::Adaptive, 12) {
         let mesh = &frame.garments[0];

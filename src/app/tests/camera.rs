@@ -61,3 +61,18 @@ fn the_camera_is_unlocked_for_drags() {
     seat.press(egui::Key::C);
     assert!(!seat.previewer().state().camera_unlocked);
 }
+
+#[test]
+fn a_click_without_a_way_in_the_unlocked_view_moves_nothing() {
+    let mut seat = Seat::take();
+    seat.press(egui::Key::C);
+    seat.act(Action::GoTo { frame: 8 });
+    let before = path(&seat);
+    for share in [0.1, 0.25, 0.4] {
+        let views = seat.views();
+        seat.click_at(views.min + views.size() * egui::vec2(share, 0.5));
+        seat.settle();
+    }
+    assert!(path(&seat) == before);
+    assert!(!seat.is_offered("Undo"));
+}

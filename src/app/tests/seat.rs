@@ -160,6 +160,20 @@ impl Seat {
         self.settle();
     }
 
+    /// Presses and lets go there, without a way in between.
+    pub fn click_at(&mut self, pos: egui::Pos2) {
+        let button = |pressed| egui::Event::PointerButton {
+            pos,
+            button: egui::PointerButton::Primary,
+            pressed,
+            modifiers: egui::Modifiers::NONE,
+        };
+        for event in [egui::Event::PointerMoved(pos), button(true), button(false)] {
+            self.desk.event(event);
+            self.settle();
+        }
+    }
+
     /// Opens or closes the heading of a name, be it scrolled out of sight.
     pub fn unfold(&mut self, name: &str) {
         self.desk.get_by_role_and_label(Role::DisclosureTriangle, name).click_accesskit();

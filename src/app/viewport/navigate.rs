@@ -153,7 +153,10 @@ fn moved(
     }
     if response.hovered() {
         let scroll = ui.input(|input| f64::from(input.smooth_scroll_delta().y));
-        now = now.dollied(scroll * ZOOM);
+        // A way of nothing would not be nothing by rounding.
+        if scroll != 0.0 {
+            now = now.dollied(scroll * ZOOM);
+        }
     }
     (now != place).then_some(now)
 }

@@ -72,6 +72,8 @@ impl ClothContact {
     /// be the right one, and contact would hold all nodes on the side where they are.
     pub fn let_go_of(&mut self, tree: &FaceTree, crossings: &[Crossing]) {
         self.tangled = tangled_nodes(tree.topology(), &self.layers, crossings);
+        // Those left out before may count again.
+        self.pairs.keep_no_longer();
     }
 
     /// Of the tree's edges, in the flat cloth (m).

@@ -48,7 +48,8 @@ fn point_count_of_first(features: Features) -> usize {
     }
 }
 
-/// Of the nodes may be fast, or out of their boxes, where pairs are kept.
+/// Share of the nodes that may be fast, or out of their boxes, where pairs are kept: more have most
+/// faces looked up again, one by one.
 const OTHERS_SHARE_MAX: f64 = 0.125;
 
 /// Steps as the one at hand that room must last for, or the pairs that it adds cost more than it saves.
@@ -117,6 +118,11 @@ impl ClothPairs {
         let room =
             if are_few((0..start.len()).filter(is_fast).count(), start) { room } else { 0.0 };
         self.find_with_room(topology, start, &way, reach, room);
+    }
+
+    /// Has the next step look everything up again.
+    pub fn keep_no_longer(&mut self) {
+        self.room = 0.0;
     }
 
     fn find_with_room(

@@ -42,7 +42,7 @@ pub struct FabricFile {
     /// Damping proportional to stiffness (s). Default 0.
     pub damping: f64,
     /// Least and largest stretch ratio, for example [0.95, 1.05]. Default none. Cloth
-    /// beyond them is stiff, and its steps are iterated.
+    /// beyond them is stiff, its steps are iterated, and what is left beyond is projected.
     pub strain_limits: Option<[f64; 2]>,
     /// Distance at which cloth of this fabric is held off obstacles (m); off other cloth it is the mean
     /// of both fabrics'. Default `contact.thickness`. The thickest is at most five times the thinnest.
