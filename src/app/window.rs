@@ -1,5 +1,7 @@
 //! A desk in a real window. The only place that knows winit.
 
+use std::cell::Cell;
+use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -50,6 +52,7 @@ pub fn run(
         losses: 0,
     };
     theme::dress(&program.context);
+    silence_expected_panics();
     event_loop.run_app(&mut program).context("the window failed")?;
     program.desk.close();
     match (program.failure, program.player) {
@@ -199,9 +202,9 @@ impl ApplicationHandler<Woken> for Program {
                 return;
             }
             WindowEvent::Destroyed => {
-                // Whoever asks a window about itself after its end gets no answer but a panic.
-                self.shown = None;
-                self.fail(event_loop, anyhow::anyhow!(self.words_at_the_windows_end()));
+                if let Err(error) = self.end_with_the_window() {
+                    self.fail(event_loop, error);
+                }
                 return;
             }
             WindowEvent::Resized(size) => {
@@ -252,7 +255,9 @@ impl Program {
         let now = self.now();
         let next = self.desk.advance(now);
         let Some(shown) = &mut self.shown else { return Ok(()) };
-        let mut input = shown.input.take_egui_input(&shown.window);
+        let Some(mut input) = shown.input_while_it_lives() else {
+            return self.end_with_the_window();
+        };
         let request = match &mut self.player {
             Some(player) => player.step(&mut self.desk, &mut input, now)?,
             None => Request::Nothing,
@@ -307,6 +312,9 @@ impl Program {
         if self.losses > LOSSES_MAX {
             anyhow::bail!("the graphics device is lost again and again: {error}");
         }
+        if self.shown.as_ref().is_some_and(|shown| !shown.is_alive()) {
+            return self.end_with_the_window();
+        }
         self.desk.note_lost_device(error);
         let Some(shown) = &mut self.shown else { return Ok(()) };
         // A new context sends its letters again.
@@ -317,6 +325,12 @@ impl Program {
         shown.input = input_of(&self.context, &shown.window);
         shown.window.request_redraw();
         Ok(())
+    }
+
+    /// Nobody asks the window about itself from now on.
+    fn end_with_the_window(&mut self) -> Result<()> {
+        self.shown = None;
+        anyhow::bail!(self.words_at_the_windows_end())
     }
 
     /// For a window that was not closed but destroyed, so that nobody could be asked.
@@ -332,6 +346,42 @@ impl Program {
     fn fail(&mut self, event_loop: &ActiveEventLoop, error: anyhow::Error) {
         self.failure.get_or_insert(error);
         event_loop.exit();
+    }
+}
+
+thread_local! {
+    /// Whether a panic on this thread is expected, and taken for an answer.
+    static IS_PANIC_AN_ANSWER: Cell<bool> = const { Cell::new(false) };
+}
+
+/// What a window is asked for; `None` if it has been destroyed: winit then panics when asked for its
+/// size.
+fn answer_of_a_window<T>(ask: impl FnOnce() -> T) -> Option<T> {
+    IS_PANIC_AN_ANSWER.set(true);
+    let answer = panic::catch_unwind(AssertUnwindSafe(ask)).ok();
+    IS_PANIC_AN_ANSWER.set(false);
+    answer
+}
+
+/// Has expected panics say nothing.
+fn silence_expected_panics() {
+    let usual = panic::take_hook();
+    panic::set_hook(Box::new(move |info| {
+        if !IS_PANIC_AN_ANSWER.get() {
+            usual(info);
+        }
+    }));
+}
+
+impl Shown {
+    /// What has come in since the last redraw; `None` if the window has been destroyed, though its event
+    /// has not come yet.
+    fn input_while_it_lives(&mut self) -> Option<egui::RawInput> {
+        answer_of_a_window(|| self.input.take_egui_input(&self.window))
+    }
+
+    fn is_alive(&self) -> bool {
+        answer_of_a_window(|| self.window.inner_size()).is_some()
     }
 }
 
