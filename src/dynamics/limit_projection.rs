@@ -13,6 +13,7 @@
 use glam::DVec3;
 
 use super::handles::HandleSpring;
+use super::principal::StrainBounds;
 use super::strain_limit::ratios_beyond;
 use super::stretch::Membrane;
 use super::system::{GarmentRanges, System};
@@ -135,10 +136,10 @@ impl System {
     fn faces_beyond(&self, share: f64, positions: &[DVec3]) -> Vec<(u32, StretchLimits)> {
         let of_garment = |garment: &GarmentRanges| {
             let limits = StretchLimits::of(garment)?;
-            let bounds = limits.squares_beyond(share);
+            let bounds = limits.bounds_beyond(share);
             let faces = garment.membranes.clone();
             let is_beyond =
-                move |&face: &usize| is_outside(bounds, &self.membranes[face], positions);
+                move |&face: &usize| bounds.may_be_felt(self.membranes[face].strain(positions));
             Some(faces.filter(is_beyond).map(move |face| (face as u32, limits)))
         };
         self.garments.iter().filter_map(of_garment).flatten().collect()
@@ -162,8 +163,8 @@ impl System {
         near.sort_unstable_by_key(|&(face, _)| face);
         near.dedup_by_key(|&mut (face, _)| face);
         near.retain(|(face, limits)| {
-            let bounds = limits.squares_beyond(NOTICED_FROM);
-            is_outside(bounds, &self.membranes[*face as usize], positions)
+            let bounds = limits.bounds_beyond(NOTICED_FROM);
+            bounds.may_be_felt(self.membranes[*face as usize].strain(positions))
         });
         near
     }
@@ -182,9 +183,9 @@ impl StretchLimits {
         garment.fabric.strain_limits().map(|ratios| Self { ratios })
     }
 
-    /// What the squares of principal stretches are between that are beyond by a share at most.
-    fn squares_beyond(&self, share: f64) -> [f64; 2] {
-        ratios_beyond(self.ratios, share).map(|ratio| ratio * ratio)
+    /// Felt where a principal stretch is beyond by more than a share; nothing resists there.
+    fn bounds_beyond(&self, share: f64) -> StrainBounds {
+        StrainBounds::of_stretch(ratios_beyond(self.ratios, share), 0.0)
     }
 
     /// Of C = sigma - limit the gradient by corner i is (g_i . a) F a / sigma, with a the principal
@@ -215,14 +216,6 @@ impl StretchLimits {
             }
         }
     }
-}
-
-/// Whether the square of a principal stretch is outside of bounds.
-fn is_outside([least, largest]: [f64; 2], face: &Membrane, positions: &[DVec3]) -> bool {
-    let gram = face.gradient_of(positions).gram();
-    let mean = 0.5 * gram.trace();
-    let radius = (0.5 * (gram.xx - gram.yy)).hypot(gram.xy);
-    mean + radius > largest || mean - radius < least
 }
 
 /// The faces around every node.

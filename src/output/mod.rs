@@ -30,22 +30,20 @@ impl PendingFile {
     }
 
     fn begin(path: &Path) -> Result<Self> {
-        let cannot = || format!("cannot write {:?}", path.display());
         if path.is_dir() {
-            anyhow::bail!("{}: it is a folder", cannot());
+            anyhow::bail!("{}: it is a folder", cannot_write(path));
         }
         let file = leftovers::create_temporary(folder_of(path))
             // Its text would name the temporary file.
             .map_err(|error| io::Error::from(error.kind()))
-            .with_context(cannot)?;
+            .with_context(|| cannot_write(path))?;
         Ok(Self { file, path: path.to_owned() })
     }
 
     /// # Errors
     /// If the file system refuses.
     pub fn write(self, contents: &[u8]) -> Result<()> {
-        let cannot = || format!("cannot write {:?}", self.path.display());
-        self.file.as_file().write_all(contents).with_context(cannot)?;
+        self.fill(contents)?;
         self.finish()
     }
 
@@ -60,10 +58,13 @@ impl PendingFile {
     /// # Errors
     /// If the file system refuses.
     pub fn write_lastingly(self, contents: &[u8]) -> Result<()> {
-        let cannot = || format!("cannot write {:?}", self.path.display());
-        self.file.as_file().write_all(contents).with_context(cannot)?;
-        self.file.as_file().sync_all().with_context(cannot)?;
+        self.fill(contents)?;
+        self.file.as_file().sync_all().with_context(|| cannot_write(&self.path))?;
         self.finish()
+    }
+
+    fn fill(&self, contents: &[u8]) -> Result<()> {
+        self.file.as_file().write_all(contents).with_context(|| cannot_write(&self.path))
     }
 
     /// What was written to the temporary path is whole. It takes over the permissions of a file that is
@@ -73,12 +74,12 @@ impl PendingFile {
     /// # Errors
     /// If the file system refuses.
     pub fn finish(self) -> Result<()> {
-        let cannot = || format!("cannot write {:?}", self.path.display());
         if let Ok(about) = fs::metadata(&self.path) {
             // An output with other permissions is better than none.
             let _ = fs::set_permissions(self.file.path(), about.permissions());
         }
-        self.file.persist(&self.path).map_err(|e| e.error).with_context(cannot)?;
+        let persisted = self.file.persist(&self.path).map_err(|e| e.error);
+        persisted.with_context(|| cannot_write(&self.path))?;
         Ok(())
     }
 
@@ -100,9 +101,7 @@ impl PendingFile {
     /// If the file system refuses.
     pub fn write_png(self, image: &RgbaImage) -> Result<()> {
         let mut bytes = io::Cursor::new(Vec::new());
-        image
-            .write_to(&mut bytes, ImageFormat::Png)
-            .with_context(|| format!("cannot write {:?}", self.path.display()))?;
+        image.write_to(&mut bytes, ImageFormat::Png).with_context(|| cannot_write(&self.path))?;
         self.write(bytes.get_ref())
     }
 
@@ -116,11 +115,13 @@ impl PendingFile {
         let opaque = DynamicImage::ImageRgba8(image.clone()).into_rgb8();
         let encoder =
             PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
-        opaque
-            .write_with_encoder(encoder)
-            .with_context(|| format!("cannot write {:?}", self.path.display()))?;
+        opaque.write_with_encoder(encoder).with_context(|| cannot_write(&self.path))?;
         self.write(bytes.get_ref())
     }
+}
+
+fn cannot_write(path: &Path) -> String {
+    format!("cannot write {:?}", path.display())
 }
 
 /// Where a file is, or is to be.

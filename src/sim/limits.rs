@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 
-use super::Simulation;
 use super::clock::{Stage, StageClock};
 use super::frame::FrameReport;
-use crate::collision::{Depth, Resolution};
+use super::{MovingCloth, Simulation};
+use crate::collision::{Depth, ObstacleMotion, Resolution};
+use crate::scene::Contact;
 
 /// Rounds in which faces are taken back as far as contact lets them.
 const ROUNDS_MAX: usize = 32;
@@ -26,6 +27,7 @@ impl Simulation {
         }
         let mut done = Resolution::default();
         let mut is_moved = false;
+        let mut obstacles = None;
         for _ in 0..ROUNDS_MAX {
             let start = self.cloth.state.position.clone();
             clock.time(Stage::Dynamics, || self.move_within_limits());
@@ -34,7 +36,12 @@ impl Simulation {
             }
             is_moved = true;
             if self.scene.stages.collision {
-                let round = clock.time(Stage::Collision, || self.stopped_on_the_way_from(&start));
+                let obstacles = obstacles.get_or_insert_with(|| {
+                    clock.time(Stage::Obstacles, || self.obstacles_at_rest())
+                });
+                let round = clock.time(Stage::Collision, || {
+                    self.cloth.stop_on_the_way_from(&start, obstacles, &self.scene.contact)
+                });
                 done.impacts = done.impacts.max(round.impacts);
                 done.unresolved = round.unresolved;
             } else {
@@ -56,16 +63,6 @@ impl Simulation {
         cloth.system.take_back_within_limits(position, &handles, step_time);
     }
 
-    /// Stops the cloth where it passed through something on its way from where it was.
-    fn stopped_on_the_way_from(&mut self, start: &[DVec3]) -> Resolution {
-        let obstacles = self.obstacles_at_rest();
-        let cloth = &mut self.cloth;
-        if let Some(own) = &mut cloth.own {
-            own.expect_rest(&cloth.tree, start, &self.scene.contact);
-        }
-        cloth.lead_out(start, &obstacles, &self.scene.contact, Depth::OfTheStep)
-    }
-
     /// Says how many faces are beyond strain limits where all is done.
     pub(super) fn warn_of_limits(&self, report: &mut FrameReport) {
         if !self.cloth.system.is_limited() {
@@ -76,5 +73,20 @@ impl Simulation {
             let warning = format!("{count} faces are beyond strain limits by over 1 %");
             report.warnings.push(warning);
         }
+    }
+}
+
+impl MovingCloth {
+    /// Stops the cloth where it passed through something on its way from where it was.
+    fn stop_on_the_way_from(
+        &mut self,
+        start: &[DVec3],
+        obstacles: &[ObstacleMotion],
+        settings: &Contact,
+    ) -> Resolution {
+        if let Some(own) = &mut self.own {
+            own.expect_rest(&self.tree, start, settings);
+        }
+        self.lead_out(start, obstacles, settings, Depth::OfTheStep)
     }
 }
