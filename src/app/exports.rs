@@ -81,6 +81,9 @@ impl Exports {
         }
         match self.request(&export, options, witness, previewer) {
             Ok((request, supply)) => {
+                if export.kind == ExportKind::Sheet && export.viewport != Viewport::Both {
+                    previewer.say(Level::Note, "a contact sheet shows both views");
+                }
                 let existing = in_the_way(&request, supply.info.first_frame);
                 if let Some(what) = existing.filter(|_| !export.overwrite) {
                     let export = Export { overwrite: true, ..export };
@@ -170,10 +173,7 @@ impl Exports {
         let request = ExportRequest {
             what,
             view,
-            width: match export.kind {
-                ExportKind::Sheet => export.width.min(SHEET_WIDTH_MAX),
-                _ => export.width,
-            },
+            width: export.width,
             options,
             ghost_frames: previewer.state().look.ghost.then(|| scenery.anticipation()),
             burn_in: if export.burn_in { BurnIn::Strip } else { BurnIn::None },
@@ -183,9 +183,6 @@ impl Exports {
         Ok((request, supply))
     }
 }
-
-/// Of one view on a contact sheet (px): a page of twelve frames still fits a screen.
-const SHEET_WIDTH_MAX: u32 = 320;
 
 /// Frames of a contact sheet: at most as many as fit a page at a glance.
 fn sheet_frames(first: u32, last: u32) -> Vec<u32> {

@@ -1,11 +1,13 @@
 //! What is wrong with a request, before anything is opened.
 
+use std::collections::HashSet;
+use std::ffi::OsString;
+use std::fs;
 use std::path::Path;
 
 use anyhow::{Result, bail, ensure};
 
 use super::{ExportKind, ExportRequest, ExportView};
-use crate::render::size_of_width;
 
 /// The least and the greatest width of a view's picture (px): as small as a folder's icon, and as large
 /// as graphics adapters draw.
@@ -26,7 +28,7 @@ pub(super) fn checked_frames(request: &ExportRequest) -> Result<Vec<u32>> {
         ExportKind::Still { .. } => check_png(&request.to)?,
         ExportKind::Sheet { .. } => {
             check_png(&request.to)?;
-            check_sheet(request, frames.len())?;
+            check_witness(&request.view)?;
         }
         ExportKind::Sequence { .. } | ExportKind::Video { .. } => {}
         // Its files are no pictures.
@@ -41,22 +43,32 @@ pub(super) fn checked_frames(request: &ExportRequest) -> Result<Vec<u32>> {
 }
 
 /// What an export would write over, in words; `first_frame` is what frame 0 is called. A run folder that
-/// is there is left alone by whoever writes one.
+/// is there is left alone by whoever writes one, and a folder in a file's place by whoever writes the file.
 pub fn in_the_way(request: &ExportRequest, first_frame: i64) -> Option<String> {
     let to = &request.to;
     match &request.what {
         ExportKind::Run { .. } => None,
         ExportKind::Still { .. } | ExportKind::Sheet { .. } | ExportKind::Video { .. } => {
-            to.exists().then(|| format!("there is a {:?} already", to.display()))
+            let is_file = to.exists() && !to.is_dir();
+            is_file.then(|| format!("there is a {:?} already", to.display()))
         }
         ExportKind::Sequence { .. } => {
-            let frames = frames(&request.what).unwrap_or_default();
+            let there = names_in(to);
             let name = |&frame: &u32| picture_name(i64::from(frame) + first_frame, &request.view);
-            let count = frames.iter().filter(|frame| to.join(name(frame)).exists()).count();
+            let is_there = |frame: &&u32| there.contains(&OsString::from(name(frame)));
+            let frames = frames(&request.what).unwrap_or_default();
+            let count = frames.iter().filter(is_there).count();
             let words = || format!("{:?} holds {count} of these pictures already", to.display());
             (count > 0).then(words)
         }
     }
+}
+
+/// By one look, since whoever asks waits: none for a folder that is missing or cannot be read, which is
+/// said when it is written.
+fn names_in(folder: &Path) -> HashSet<OsString> {
+    let entries = fs::read_dir(folder).into_iter().flatten();
+    entries.filter_map(|entry| Some(entry.ok()?.file_name())).collect()
 }
 
 /// Of a frame of a sequence, as the shot counts.
@@ -98,17 +110,23 @@ fn check_png(path: &Path) -> Result<()> {
     Ok(())
 }
 
-fn check_sheet(request: &ExportRequest, frame_count: usize) -> Result<()> {
-    let witness = match &request.view {
-        ExportView::Witness(view) | ExportView::Both(view) => view,
+fn check_witness(view: &ExportView) -> Result<()> {
+    match view {
+        ExportView::Witness(_) | ExportView::Both(_) => Ok(()),
         ExportView::Shot => bail!("a contact sheet shows both views: it needs a witness's"),
-    };
-    let [width, height] = size_of_width(witness, request.width).map(u64::from);
-    let pixels = (2 * width).saturating_mul(height).saturating_mul(frame_count as u64);
+    }
+}
+
+/// Whether a page of so many frames can be put together; `size` is that of one view's picture (px).
+pub(super) fn check_page(frame_count: usize, size: [u32; 2]) -> Result<()> {
+    let [width, height] = size.map(u64::from);
+    let pixels = (2 * width * height).saturating_mul(frame_count as u64);
     ensure!(
         pixels <= SHEET_PIXELS_MAX,
-        "a contact sheet of {frame_count} frames, {width} px wide each, is too large: choose fewer \
-         frames or smaller pictures"
+        "a contact sheet of {frame_count} frames, each view {width} x {height} px, has {} million \
+         pixels: {} million are possible, with fewer frames or smaller pictures",
+        pixels.div_ceil(1_000_000),
+        SHEET_PIXELS_MAX / 1_000_000
     );
     Ok(())
 }

@@ -8,6 +8,7 @@ mod burn_in;
 mod check;
 mod job;
 mod pictures;
+mod place;
 mod run_folder;
 mod stills;
 mod supply;

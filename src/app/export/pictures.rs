@@ -66,6 +66,11 @@ impl<'a> Pictures<'a> {
         &self.info
     }
 
+    /// Of one view's picture (px).
+    pub fn size_of_view(&self) -> [u32; 2] {
+        self.size
+    }
+
     /// Of the pictures that [`Pictures::picture`] gives (px).
     pub fn size(&self) -> [u32; 2] {
         let [one, height] = self.size;

@@ -1,11 +1,12 @@
 //! A run folder of frames that are there already.
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, anyhow, ensure};
 
 use super::Task;
 use super::job::Outcome;
+use super::place::check_folder;
 use super::stills::what_stays;
-use crate::run::{RunInfo, RunWriter, WriteOptions};
+use crate::run::{RunError, RunInfo, RunWriter, WriteOptions};
 
 /// Frames of one run, as `simulate` writes them. A folder that holds a run already is left alone.
 ///
@@ -18,8 +19,9 @@ pub(super) fn run(task: Task<'_>, frames: &[u32]) -> Result<Outcome> {
         check_settings(task, &info, number)?;
     }
     let surfaces = task.supply.surfaces();
-    let mut writer =
-        RunWriter::create(&task.request.to, &info, &surfaces, WriteOptions::default())?;
+    check_folder(&task.request.to)?;
+    let mut writer = RunWriter::create(&task.request.to, &info, &surfaces, WriteOptions::default())
+        .map_err(refused)?;
     for &number in frames {
         if task.ticket.is_cancelled() {
             writer.finish()?;
@@ -33,6 +35,16 @@ pub(super) fn run(task: Task<'_>, frames: &[u32]) -> Result<Outcome> {
     }
     writer.finish()?;
     Ok(Outcome::Whole)
+}
+
+/// Without the options that `simulate` has and an export has not.
+fn refused(error: RunError) -> anyhow::Error {
+    match error {
+        RunError::AlreadyARun { path } => {
+            anyhow!("{:?} holds a run already: choose another folder", path.display())
+        }
+        other => other.into(),
+    }
 }
 
 fn check_settings(task: Task<'_>, info: &RunInfo, number: u32) -> Result<()> {

@@ -2,11 +2,12 @@
 
 use anyhow::{Result, bail};
 
-use super::check::picture_name;
+use super::check::{check_page, picture_name};
 use super::job::Outcome;
 use super::pictures::Pictures;
+use super::place::{opened_folder, opened_folder_of};
 use super::{ExportView, Task};
-use crate::output::{PendingFile, PendingFolder};
+use crate::output::PendingFile;
 use crate::run::RunInfo;
 use crate::sheet::{Caption, SheetItem, SheetOptions, compose};
 use crate::sim::Frame;
@@ -17,6 +18,7 @@ pub(super) const NOTHING_LEFT: &str = "cancelled: nothing is written";
 /// # Errors
 /// If the file cannot be written or the frame cannot be drawn.
 pub(super) fn still(task: Task<'_>, number: u32) -> Result<Outcome> {
+    let _folder = opened_folder_of(&task.request.to)?;
     let pending = PendingFile::create(&task.request.to)?;
     let picture = Pictures::new(task)?.picture(number)?;
     if task.ticket.is_cancelled() {
@@ -28,13 +30,15 @@ pub(super) fn still(task: Task<'_>, number: u32) -> Result<Outcome> {
 }
 
 /// # Errors
-/// If the file cannot be written or a frame cannot be drawn.
+/// If the file cannot be written, the page is too large, or a frame cannot be drawn.
 pub(super) fn sheet(task: Task<'_>, frames: &[u32]) -> Result<Outcome> {
     let (ExportView::Witness(witness) | ExportView::Both(witness)) = &task.request.view else {
         bail!("a contact sheet shows both views: it needs a witness's");
     };
+    let _folder = opened_folder_of(&task.request.to)?;
     let pending = PendingFile::create(&task.request.to)?;
     let mut pictures = Pictures::new(task)?;
+    check_page(frames.len(), pictures.size_of_view())?;
     let mut items = Vec::new();
     for &number in frames {
         if task.ticket.is_cancelled() {
@@ -77,7 +81,7 @@ fn subtitle(frames: &[u32], info: &RunInfo) -> String {
 /// # Errors
 /// If the folder cannot be written or a frame cannot be drawn: the pictures before it stay.
 pub(super) fn sequence(task: Task<'_>, frames: &[u32]) -> Result<Outcome> {
-    let folder = PendingFolder::create(&task.request.to)?;
+    let folder = opened_folder(&task.request.to)?;
     let mut pictures = Pictures::new(task)?;
     for &number in frames {
         if task.ticket.is_cancelled() {

@@ -11,6 +11,7 @@ use image::RgbaImage;
 use super::Task;
 use super::job::{Outcome, Ticket};
 use super::pictures::Pictures;
+use super::place::opened_folder_of;
 use super::stills::NOTHING_LEFT;
 use crate::output::PendingFile;
 
@@ -21,6 +22,7 @@ use crate::output::PendingFile;
 /// drawn. No file is left then.
 pub(super) fn film(task: Task<'_>, frames: &[u32]) -> Result<Outcome> {
     let format = format_of(&task.request.to)?;
+    let _folder = opened_folder_of(&task.request.to)?;
     let pending = PendingFile::create(&task.request.to)?;
     let encoder = Encoder::of(&task.request.ffmpeg)?;
     let mut pictures = Pictures::new(task)?;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use egui::accesskit::Role;
+use glam::DVec3;
 
 use super::seat::Seat;
 use crate::preview::stage::{LAST, PATIENCE};
@@ -20,6 +21,18 @@ fn still(to: &Path) -> Action {
         overwrite: false,
     };
     Action::Export { export }
+}
+
+fn sheet(viewport: Viewport, width: u32, to: &Path) -> Action {
+    let Action::Export { export } = still(to) else { unreachable!() };
+    Action::Export { export: Export { kind: ExportKind::Sheet, viewport, width, ..export } }
+}
+
+/// With a witness, whose place nobody has looked for where nothing is drawn.
+fn seat_with_witness() -> Seat {
+    let mut seat = Seat::take_simulated();
+    seat.act(Action::SetWitness { eye: DVec3::new(2.0, -2.0, 1.0), target: DVec3::ZERO });
+    seat
 }
 
 fn wait(seat: &mut Seat) {
@@ -81,4 +94,37 @@ fn what_is_exported_is_chosen_and_named_after_the_shot() {
         seat.settle();
         assert_eq!(seat.text().value().as_deref(), Some(name), "{kind}");
     }
+}
+
+#[test]
+fn who_asks_for_one_view_on_a_contact_sheet_is_told_that_it_shows_both() {
+    let mut seat = seat_with_witness();
+    let to = seat.stage.folder.path().join("sheet.png");
+    let words = "a contact sheet shows both views";
+    for (viewport, is_told) in [(Viewport::Both, false), (Viewport::Shot, true)] {
+        let told = |seat: &Seat| {
+            seat.previewer().state().messages.iter().filter(|m| m.text == words).count()
+        };
+        let before = told(&seat);
+        seat.act(sheet(viewport, 32, &to));
+        wait(&mut seat);
+        assert_eq!(told(&seat) - before, usize::from(is_told), "{viewport:?}");
+        fs::remove_file(&to).unwrap();
+    }
+}
+
+#[test]
+fn views_on_a_contact_sheet_are_as_wide_as_was_asked_for() {
+    let mut seat = seat_with_witness();
+    let to = seat.stage.folder.path().join("sheet.png");
+    seat.act(sheet(Viewport::Both, 640, &to));
+    wait(&mut seat);
+    let (width, _) = image::image_dimensions(&to).unwrap();
+    assert!(width > 2 * 640, "{width}");
+    let unwritten = seat.stage.folder.path().join("huge.png");
+    seat.act(sheet(Viewport::Both, 8_000, &unwritten));
+    wait(&mut seat);
+    let messages = &seat.previewer().state().messages;
+    assert!(messages.iter().any(|m| m.text.contains("400 million are possible")), "{messages:?}");
+    assert!(!unwritten.exists());
 }
