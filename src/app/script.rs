@@ -10,7 +10,7 @@ use thiserror::Error;
 use crate::preview::Action;
 use crate::scene::from_json;
 
-/// See the module.
+/// See the module. What waits does so for ten minutes at most, and the script for its end.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum ScriptStep {

@@ -1,17 +1,25 @@
 //! Step by step through a script.
 
+mod checks;
+mod input;
+mod report;
+
 use std::collections::VecDeque;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-use anyhow::{Context as _, Result, bail};
-use egui::{Event, Key, Modifiers, PointerButton, RawInput, pos2};
-use serde_json::json;
+use anyhow::{Result, ensure};
+use egui::{Event, RawInput};
 
 use crate::app::Desk;
-use crate::app::script::{Button, ScriptError, ScriptStep};
-use crate::preview::{Action, FrameStatus, Level};
+use crate::app::script::{ScriptError, ScriptStep};
+use crate::preview::FrameStatus;
 
-/// A step that waits gives up after so long (s).
+pub use checks::check_ended;
+use checks::{check_answered, check_going, check_written, may_leave_a_question_open};
+
+/// A step that waits gives up after so long, and so does a script that has no more steps but waits for
+/// what it opens or exports (s).
 const PATIENCE: f64 = 600.0;
 /// Passes with nothing to do before a picture is taken: what one pass asks for, the next one shows.
 const SETTLING_PASSES: u32 = 3;
@@ -70,65 +78,59 @@ impl Player {
         }
         check_written(desk)?;
         let began = *self.since.get_or_insert(now);
-        let Some(step) = self.steps.front().cloned() else { return Ok(Request::Nothing) };
-        let outcome = self.carry_out(&step, desk, now - began);
-        let (is_done, request) = outcome.map_err(|why| match why.downcast::<ScriptError>() {
+        let waited = now - began;
+        let Some(step) = self.steps.front().cloned() else {
+            ensure!(
+                waited <= PATIENCE,
+                "after its last step the script has waited for {PATIENCE} s, and what it opens or \
+                 exports is not done"
+            );
+            return Ok(Request::Nothing);
+        };
+        let outcome = self.carry_out(&step, desk, waited);
+        let request = outcome.map_err(|why| match why.downcast::<ScriptError>() {
             Ok(error) => error.into(),
             Err(why) => self.failed(&step, format!("{why:#}")),
         })?;
-        if is_done {
-            self.steps.pop_front();
-            self.step += 1;
-            self.since = None;
-            self.settled = 0;
-        } else if now - began > PATIENCE {
-            return Err(self.failed(&step, format!("it has waited for {PATIENCE} s")));
+        match request {
+            Some(_) => {
+                self.steps.pop_front();
+                self.step += 1;
+                self.since = None;
+                self.settled = 0;
+            }
+            None if waited > PATIENCE => {
+                return Err(self.failed(&step, format!("it has waited for {PATIENCE} s")));
+            }
+            None => {}
         }
-        Ok(request)
+        Ok(request.unwrap_or(Request::Nothing))
     }
 
     fn failed(&self, step: &ScriptStep, why: String) -> anyhow::Error {
         ScriptError::Failed { step: self.step, what: format!("{step:?}"), why }.into()
     }
 
-    /// Whether the step is done, and what it asks for.
+    /// What the step asks for when it is done; `None` while it waits.
     fn carry_out(
         &mut self,
         step: &ScriptStep,
         desk: &mut Desk,
         waited: f64,
-    ) -> Result<(bool, Request)> {
+    ) -> Result<Option<Request>> {
         if !may_leave_a_question_open(step) {
             check_answered(desk)?;
         }
-        let mut request = Request::Nothing;
-        let done = match step {
+        let is_done = match step {
             ScriptStep::Act(action) => {
                 desk.pace().note_input();
                 desk.act(action.clone());
                 true
             }
-            ScriptStep::WaitForFrames { first, last } => {
-                check_going(desk)?;
-                let timeline = desk.previewer().timeline();
-                let is_there = |frame| {
-                    let status = timeline.status(frame);
-                    matches!(status, FrameStatus::Ready | FrameStatus::Mixed)
-                };
-                !desk.has_actions()
-                    && !desk.previewer().is_opening()
-                    && (*first..=*last).all(is_there)
-            }
+            ScriptStep::WaitForFrames { first, last } => has_frames(desk, *first..=*last)?,
             ScriptStep::WaitUntilIdle => {
                 check_going(desk)?;
-                let previewer = desk.previewer();
-                let is_busy = desk.has_actions()
-                    || previewer.is_opening()
-                    || previewer.is_working()
-                    || previewer.is_loading()
-                    || previewer.rival().1
-                    || desk.is_exporting();
-                self.settled = if is_busy { 0 } else { self.settled + 1 };
+                self.settled = if is_busy(desk) { 0 } else { self.settled + 1 };
                 self.settled > SETTLING_PASSES
             }
             ScriptStep::WaitUntilShown { frame } => {
@@ -136,29 +138,24 @@ impl Player {
             }
             ScriptStep::Wait { seconds } => waited >= *seconds,
             ScriptStep::Click { at } => {
-                self.click(*at);
+                self.inputs.extend(input::click(*at));
                 true
             }
             ScriptStep::Drag { from, to, button } => {
-                self.drag(*from, *to, *button);
+                self.inputs.extend(input::drag(*from, *to, *button));
                 true
             }
             ScriptStep::Press { key } => {
-                self.press(key)?;
+                self.inputs.extend(input::press(key)?);
                 true
             }
             ScriptStep::Screenshot { to } => {
                 self.settled = if desk.has_actions() { 0 } else { self.settled + 1 };
                 let is_ready = self.settled > SETTLING_PASSES;
-                if is_ready {
-                    request = Request::Screenshot(to.clone());
-                }
-                is_ready
+                return Ok(is_ready.then(|| Request::Screenshot(to.clone())));
             }
             ScriptStep::Report { to } => {
-                let text = serde_json::to_string_pretty(&report(desk)).expect("numbers and words");
-                std::fs::write(to, text + "\n")
-                    .with_context(|| format!("cannot write {:?}", to.display()))?;
+                report::write_report(desk, to)?;
                 true
             }
             ScriptStep::ClearPace => {
@@ -166,148 +163,32 @@ impl Player {
                 true
             }
         };
-        Ok((done, request))
-    }
-
-    fn click(&mut self, [x, y]: [f32; 2]) {
-        let at = pos2(x, y);
-        self.inputs.extend([
-            vec![Event::PointerMoved(at)],
-            vec![button(at, PointerButton::Primary, true)],
-            vec![button(at, PointerButton::Primary, false)],
-        ]);
-    }
-
-    fn drag(&mut self, from: [f32; 2], to: [f32; 2], with: Button) {
-        /// Moves of the pointer that make up a drag.
-        const MOVES: u32 = 8;
-        let which = match with {
-            Button::Primary => PointerButton::Primary,
-            Button::Secondary => PointerButton::Secondary,
-            Button::Middle => PointerButton::Middle,
-        };
-        let (from, to) = (pos2(from[0], from[1]), pos2(to[0], to[1]));
-        self.inputs.extend([vec![Event::PointerMoved(from)], vec![button(from, which, true)]]);
-        for k in 1..=MOVES {
-            let at = from.lerp(to, k as f32 / MOVES as f32);
-            self.inputs.push_back(vec![Event::PointerMoved(at)]);
-        }
-        self.inputs.push_back(vec![button(to, which, false)]);
-    }
-
-    fn press(&mut self, name: &str) -> Result<()> {
-        let Some(key) = Key::from_name(name) else { bail!("{name:?} is no key") };
-        let event = |pressed| Event::Key {
-            key,
-            physical_key: None,
-            pressed,
-            repeat: false,
-            modifiers: Modifiers::NONE,
-        };
-        self.inputs.extend([vec![event(true)], vec![event(false)]]);
-        Ok(())
+        Ok(is_done.then_some(Request::Nothing))
     }
 }
 
-fn button(pos: egui::Pos2, button: PointerButton, pressed: bool) -> Event {
-    Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE }
-}
-
-/// How a script has ended.
+/// Whether these frames are there and as they should be.
 ///
 /// # Errors
-/// If its shot could not be opened, it has left a question open, or what it would export is not there.
-pub fn check_ended(desk: &Desk) -> Result<()> {
-    check_opened(desk)?;
-    check_answered(desk)?;
-    check_written(desk)?;
-    if desk.is_exporting() {
-        bail!("the script quits before its export is done: let it wait until idle");
-    }
-    Ok(())
+/// If they will not come.
+fn has_frames(desk: &Desk, mut frames: RangeInclusive<u32>) -> Result<bool> {
+    check_going(desk)?;
+    let timeline = desk.previewer().timeline();
+    let is_there =
+        |frame| matches!(timeline.status(frame), FrameStatus::Ready | FrameStatus::Mixed);
+    Ok(!desk.has_actions() && !desk.previewer().is_opening() && frames.all(is_there))
 }
 
-/// What a script exports is there, or it has failed.
-fn check_written(desk: &Desk) -> Result<()> {
-    match desk.unwritten_export() {
-        Some(why) => bail!("not exported: {why}"),
-        None => Ok(()),
-    }
-}
-
-/// A script that looks at the question, or clicks on its answer.
-fn may_leave_a_question_open(step: &ScriptStep) -> bool {
-    match step {
-        ScriptStep::Act(action) => matches!(action, Action::WriteOver { .. }),
-        ScriptStep::WaitForFrames { .. }
-        | ScriptStep::WaitUntilIdle
-        | ScriptStep::WaitUntilShown { .. } => false,
-        ScriptStep::Wait { .. }
-        | ScriptStep::Click { .. }
-        | ScriptStep::Drag { .. }
-        | ScriptStep::Press { .. }
-        | ScriptStep::Screenshot { .. }
-        | ScriptStep::Report { .. }
-        | ScriptStep::ClearPace => true,
-    }
-}
-
-/// Nobody is there to be asked.
-fn check_answered(desk: &Desk) -> Result<()> {
-    match &desk.previewer().state().overwriting {
-        Some(asked) => bail!("{}: to write over it say \"overwrite\": true", asked.what),
-        None => Ok(()),
-    }
-}
-
-/// A script is for a shot: one that cannot be read, and none opened after it, is bad input.
-///
-/// # Errors
-/// In the words of whoever read it.
-fn check_opened(desk: &Desk) -> Result<()> {
-    match desk.previewer().opening_failure() {
-        Some(why) => Err(ScriptError::NotOpened(why.to_owned()).into()),
-        None => Ok(()),
-    }
-}
-
-/// What has gone wrong will not get better by waiting.
-fn check_going(desk: &Desk) -> Result<()> {
-    check_opened(desk)?;
-    let failure = desk.previewer().state().messages.iter().find(|m| m.level == Level::Error);
-    match failure {
-        Some(message) => bail!("{}", message.text),
-        None => Ok(()),
-    }
-}
-
-/// Where the program stands.
-fn report(desk: &mut Desk) -> serde_json::Value {
-    let pace = desk.pace().report();
+/// Whether anything is being simulated, read, opened or exported.
+fn is_busy(desk: &Desk) -> bool {
     let previewer = desk.previewer();
-    let (state, timeline) = (previewer.state(), previewer.timeline());
-    let letter = |frame| match timeline.status(frame) {
-        FrameStatus::Ready => 'r',
-        FrameStatus::Mixed => 'm',
-        FrameStatus::Stale => 's',
-        FrameStatus::Missing => '.',
-    };
-    let keys: Vec<Option<String>> =
-        timeline.keys().into_iter().map(|key| key.map(|key| key.to_string())).collect();
-    let messages: Vec<&str> = state.messages.iter().map(|m| m.text.as_str()).collect();
-    json!({
-        "current": state.playback.current,
-        "playing": state.playback.playing,
-        "statuses": (0..timeline.len() as u32).map(letter).collect::<String>(),
-        "keys": keys,
-        "simulated": previewer.simulated(),
-        "seconds": (0..timeline.len() as u32)
-            .filter_map(|frame| Some(timeline.slot(frame)?.cost?.wall))
-            .sum::<f64>(),
-        "edits": state.version.edits,
-        "settings_hash": previewer.scenery().map(|s| s.settings_hash.clone()),
-        "messages": messages,
-        "memory_bytes": previewer.store().used(),
-        "pace": pace,
-    })
+    desk.has_actions()
+        || previewer.is_opening()
+        || previewer.is_working()
+        || previewer.is_loading()
+        || previewer.rival().1
+        || desk.is_exporting()
 }
+
+#[cfg(test)]
+mod tests;

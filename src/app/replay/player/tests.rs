@@ -1,0 +1,79 @@
+use std::sync::Arc;
+
+use super::*;
+use crate::app::Preferences;
+use crate::preview::stage::Stage;
+use crate::preview::{Action, Look, Previewer, Source, Start, Wake};
+use crate::render::AdapterChoice;
+
+/// At which something is asked for that nobody ever does.
+fn desk(stage: &Stage) -> Desk {
+    let wake: Wake = Arc::new(|| {});
+    let previewer = Previewer::start(Start {
+        source: Source::Shot(stage.request()),
+        look: Look::default(),
+        cache: None,
+        memory: 64 << 20,
+        simulating: false,
+        wake: wake.clone(),
+    });
+    let mut desk = Desk::new(previewer, Preferences::default(), AdapterChoice::Software, wake);
+    desk.act(Action::Play);
+    desk
+}
+
+fn step(player: &mut Player, desk: &mut Desk, now: f64) -> Result<Request> {
+    player.step(desk, &mut RawInput::default(), now)
+}
+
+#[test]
+fn a_script_waits_for_its_end_as_long_as_for_a_step() {
+    let stage = Stage::set();
+    for steps in [vec![], vec![ScriptStep::WaitUntilIdle]] {
+        let (mut desk, mut player) = (desk(&stage), Player::new(steps));
+        for now in [7.0, 7.0 + PATIENCE] {
+            assert_eq!(step(&mut player, &mut desk, now).unwrap(), Request::Nothing);
+            assert!(!player.is_done(&desk));
+        }
+        let why = step(&mut player, &mut desk, 7.1 + PATIENCE).unwrap_err().to_string();
+        assert!(why.contains("has waited for 600 s"), "{why}");
+    }
+}
+
+#[test]
+fn the_wait_for_the_end_begins_behind_the_last_step() {
+    let stage = Stage::set();
+    let (mut desk, mut player) = (desk(&stage), Player::new(vec![ScriptStep::ClearPace]));
+    for now in [0.0, 500.0, 500.0 + PATIENCE] {
+        assert_eq!(step(&mut player, &mut desk, now).unwrap(), Request::Nothing);
+    }
+    assert!(step(&mut player, &mut desk, 500.1 + PATIENCE).is_err());
+}
+
+#[test]
+fn a_drag_ends_where_it_should_with_the_button_let_go() {
+    let stage = Stage::set();
+    let drag = ScriptStep::Drag {
+        from: [10.0, 20.0],
+        to: [50.0, 60.0],
+        button: crate::app::script::Button::Middle,
+    };
+    let (mut desk, mut player) = (desk(&stage), Player::new(vec![drag]));
+    let mut events = Vec::new();
+    for pass in 0..20 {
+        let mut input = RawInput::default();
+        player.step(&mut desk, &mut input, f64::from(pass)).unwrap();
+        assert!(input.events.len() <= 1, "an input a pass");
+        events.extend(input.events);
+    }
+    let button = |pos: egui::Pos2, pressed: bool| Event::PointerButton {
+        pos,
+        button: egui::PointerButton::Middle,
+        pressed,
+        modifiers: egui::Modifiers::NONE,
+    };
+    let [from, to] = [egui::pos2(10.0, 20.0), egui::pos2(50.0, 60.0)];
+    assert_eq!(events[..2], [Event::PointerMoved(from), button(from, true)]);
+    let end = events.len() - 2;
+    assert_eq!(events[end..], [Event::PointerMoved(to), button(to, false)]);
+}
