@@ -10,7 +10,7 @@ use crate::own_shot::own_shot;
 use crate::run::{InputHasher, RUN_FORMAT, RunInfo, cpu_features};
 use crate::scene::{
     EmbeddedFiles, FileRead, FileSource, FileSystem, LoadError, LoadOptions, LoadedShot, Scene,
-    Surface, load,
+    Surface, joined, load,
 };
 use crate::sim::{SimSettings, SizingMode};
 
@@ -19,6 +19,8 @@ use crate::sim::{SimSettings, SizingMode};
 pub struct Request {
     /// A shot file or an ARCSim scene; `None` is the shot that comes with the program.
     pub shot: Option<PathBuf>,
+    /// What the shot file says, if that is not what is on disk.
+    pub text: Option<Arc<str>>,
     /// A camera file that takes the place of the shot camera.
     pub camera: Option<PathBuf>,
     /// Overrides, `path.to.field=value`, in order.
@@ -106,7 +108,13 @@ impl Request {
             Some(path) if path.is_dir() => {
                 Err(RequestError::Folder { path: path.display().to_string() })
             }
-            Some(path) => Ok((path.clone(), Box::new(FileSystem))),
+            Some(path) => match &self.text {
+                Some(text) => {
+                    let (path, text) = (path.clone(), text.clone());
+                    Ok((path.clone(), Box::new(OtherText { path, text })))
+                }
+                None => Ok((path.clone(), Box::new(FileSystem))),
+            },
             None => {
                 let (path, files) = own_shot();
                 Ok((path, Box::new(OwnShotFiles(files))))
@@ -133,6 +141,30 @@ impl FileSource for OwnShotFiles {
     fn is_file(&self, path: &Path) -> bool {
         self.0.is_file(path) || FileSystem.is_file(path)
     }
+}
+
+/// All files as they are but for one, which says something else.
+struct OtherText {
+    path: PathBuf,
+    text: Arc<str>,
+}
+
+impl FileSource for OtherText {
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        if is_same(path, &self.path) {
+            return Ok(self.text.as_bytes().to_vec());
+        }
+        FileSystem.read(path)
+    }
+
+    fn is_file(&self, path: &Path) -> bool {
+        is_same(path, &self.path) || FileSystem.is_file(path)
+    }
+}
+
+/// Whether a path is another's, which may be written with more words.
+fn is_same(path: &Path, other: &Path) -> bool {
+    path == joined(Path::new(""), other)
 }
 
 /// The frames of the scene; where it runs on, those of its camera.
@@ -178,6 +210,7 @@ mod tests {
     fn own() -> Request {
         Request {
             shot: None,
+            text: None,
             camera: None,
             sets: Vec::new(),
             fps: None,
@@ -202,6 +235,19 @@ mod tests {
         assert_eq!(hash(&own()), hash(&own()));
         assert_ne!(hash(&own()), hash(&other));
         assert_ne!(hash(&own()), hash(&adaptive));
+    }
+
+    #[test]
+    fn a_text_takes_the_place_of_what_is_on_disk() {
+        let folder = tempfile::tempdir().unwrap();
+        let shot = folder.path().join("sub/../shot.json");
+        std::fs::create_dir(folder.path().join("sub")).unwrap();
+        let text = |frames: u32| format!("{{\"shotsilk\": 1, \"frames\": [0, {frames}]}}");
+        std::fs::write(&shot, text(3)).unwrap();
+        let on_disk = Request { shot: Some(shot), ..own() };
+        let instead = Request { text: Some(text(5).into()), ..on_disk.clone() };
+        let last = |request: &Request| request.load().unwrap().frames.last;
+        assert_eq!((last(&on_disk), last(&instead)), (3, 5));
     }
 
     #[test]

@@ -92,12 +92,12 @@ impl Desk {
         }
         let mut actions = Vec::new();
         let flies = ui.ctx().input(|input| input.pointer.secondary_down());
-        if !flies && !ui.ctx().egui_wants_keyboard_input() {
+        let state = self.previewer.state();
+        let is_asked = state.unsaved.is_some() || state.overwriting.is_some();
+        if !flies && !is_asked && !ui.ctx().egui_wants_keyboard_input() {
             actions.extend(ui.ctx().input_mut(|input| keys::pressed(input, &self.previewer)));
         }
-        for file in ui.ctx().input(|input| input.raw.dropped_files.clone()) {
-            actions.push(Action::Open { path: file.path().to_owned() });
-        }
+        self.open_dropped(ui, &mut actions);
         let context = panel::Context {
             previewer: &self.previewer,
             exports: &self.exports,
@@ -116,6 +116,17 @@ impl Desk {
         });
         self.actions.extend(actions);
         self.work += began.elapsed();
+    }
+
+    /// Of several files the first is opened.
+    fn open_dropped(&mut self, ui: &Ui, actions: &mut Vec<Action>) {
+        let dropped = ui.ctx().input(|input| input.raw.dropped_files.clone());
+        if dropped.len() > 1 {
+            let words = format!("of the {} things dropped the first is opened", dropped.len());
+            self.previewer.say(Level::Note, words);
+        }
+        let first = dropped.first().map(|file| Action::Open { path: file.path().to_owned() });
+        actions.extend(first);
     }
 
     /// Draws the viewports that have changed.
@@ -228,7 +239,11 @@ impl Desk {
                         self.previewer.act(Action::SetWitness { eye, target });
                     }
                 }
-                Effect::Opened(source) => self.note_opened(&source),
+                Effect::Opened(source) => {
+                    self.viewports.forget_place();
+                    self.note_name(&source);
+                }
+                Effect::Renamed(source) => self.note_name(&source),
                 Effect::Quit => {
                     self.keep_preferences();
                     self.quits = true;
@@ -238,9 +253,8 @@ impl Desk {
     }
 
     /// What was chosen in the files' panel is open: nothing is left to be done there.
-    fn note_opened(&mut self, source: &Source) {
+    fn note_name(&mut self, source: &Source) {
         self.previewer.act(Action::SetPanel { panel: PanelName::Files, open: false });
-        self.viewports.forget_place();
         let name = self.previewer.scenery().map_or_else(String::new, |s| s.name.clone());
         self.title = Some(format!("{name} - Shotsilk"));
         let path: Option<PathBuf> = match source {
@@ -255,6 +269,7 @@ impl Desk {
 
     /// The window is about to go: what is to be remembered is written.
     pub fn close(&mut self) {
+        self.exports.end();
         self.keep_preferences();
     }
 

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, Instant};
 
 use super::export::{
     BurnIn, ExportJob, ExportKind as Kind, ExportProgress, ExportRequest, ExportState, ExportView,
@@ -52,6 +54,18 @@ impl Exports {
     /// Why there is nothing of the export that was asked for last.
     pub fn unwritten(&self) -> Option<&str> {
         self.unwritten.as_deref()
+    }
+
+    /// Has what is going on cancelled and its unfinished files taken away, as far as a moment is enough.
+    pub fn end(&self) {
+        const PATIENCE: Duration = Duration::from_secs(2);
+        const POLL: Duration = Duration::from_millis(5);
+        self.cancel();
+        let began = Instant::now();
+        let is_running = || self.progress().is_some_and(|p| p.state == ExportState::Running);
+        while is_running() && began.elapsed() < PATIENCE {
+            thread::sleep(POLL);
+        }
     }
 
     pub fn cancel(&self) {

@@ -29,12 +29,17 @@ const fn shortcut(
 }
 
 /// In the order of the help. Those with more modifiers come before those with fewer of one key.
-pub const SHORTCUTS: [Shortcut; 31] = [
+pub const SHORTCUTS: [Shortcut; 34] = [
     shortcut(COMMAND, Key::O, "Ctrl O", "open", |_| Action::SetPanel {
         panel: PanelName::Files,
         open: true,
     }),
+    shortcut(COMMAND.plus(SHIFT), Key::S, "Ctrl Shift S", "save as", |_| Action::SetPanel {
+        panel: PanelName::Files,
+        open: true,
+    }),
     shortcut(COMMAND, Key::S, "Ctrl S", "save the shot", |_| Action::Save),
+    shortcut(COMMAND, Key::Q, "Ctrl Q", "quit", |_| Action::Quit),
     shortcut(PLAIN, Key::Space, "Space", "play or pause", |_| Action::PlayOrPause),
     shortcut(SHIFT, Key::ArrowLeft, "Shift Left", "ten frames back", |_| Action::Step { by: -10 }),
     shortcut(SHIFT, Key::ArrowRight, "Shift Right", "ten frames on", |_| Action::Step { by: 10 }),
@@ -86,6 +91,7 @@ pub const SHORTCUTS: [Shortcut; 31] = [
     }),
     shortcut(PLAIN, Key::R, "R", "re-run from the start", |_| Action::ReRun),
     shortcut(COMMAND.plus(SHIFT), Key::Z, "Ctrl Shift Z", "redo", |_| Action::Redo),
+    shortcut(COMMAND, Key::Y, "Ctrl Y", "redo, too", |_| Action::Redo),
     shortcut(COMMAND, Key::Z, "Ctrl Z", "undo", |_| Action::Undo),
     shortcut(PLAIN, Key::F1, "F1", "this help", |p| Action::SetPanel {
         panel: PanelName::Help,

@@ -12,6 +12,7 @@ mod keys;
 mod pace;
 mod panel;
 mod preferences;
+mod presses;
 pub mod replay;
 mod script;
 mod theme;

@@ -1,6 +1,6 @@
 //! Colours and sizes of the window, in one place.
 
-use egui::{Color32, Context, Stroke, Visuals};
+use egui::{Color32, Context, FontId, Stroke, TextStyle, Visuals};
 
 use crate::preview::{FrameStatus, Level};
 
@@ -42,6 +42,9 @@ pub fn level_colour(level: Level) -> Color32 {
     }
 }
 
+/// Of what explains (points): the toolkit's own is too small to be read in passing.
+const SMALL_TEXT: f32 = 11.0;
+
 /// Gives a context the looks of the program.
 pub fn dress(context: &Context) {
     let mut visuals = Visuals::dark();
@@ -52,4 +55,7 @@ pub fn dress(context: &Context) {
     visuals.selection.bg_fill = Color32::from_rgb(110, 78, 36);
     visuals.selection.stroke = Stroke::new(1.0, ACCENT);
     context.set_visuals(visuals);
+    context.all_styles_mut(|style| {
+        style.text_styles.insert(TextStyle::Small, FontId::proportional(SMALL_TEXT));
+    });
 }

@@ -3,6 +3,8 @@
 mod crossings;
 mod draw;
 mod navigate;
+mod ranges;
+mod wipe;
 
 use std::sync::Arc;
 
@@ -11,12 +13,13 @@ use egui::{Color32, Rect, Sense, Stroke, StrokeKind, TextureId, Ui, pos2, vec2};
 use super::theme;
 use crate::preview::{Action, EyeAndTarget, Layout, Look, Previewer, Scenery, Wake};
 use crate::render::{
-    CameraTrail, ColourBy, DrawList, GateRect, SafeArea, SeenRanges, TargetTexture, gate_aspect,
+    CameraTrail, ColourBy, DrawList, GateRect, SafeArea, TargetTexture, gate_aspect,
     gate_rect,
 };
 use crate::shot::{CameraPath, View};
 use crate::sim::Frame;
 use crossings::FoundCrossings;
+use ranges::Ranges;
 
 /// Who looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,8 +103,6 @@ pub struct Viewports {
 
 /// What is found once for a shot, from the first of its cloth.
 struct FoundWitness {
-    /// The shot's.
-    name: String,
     place: EyeAndTarget,
     /// Height of the ground (m).
     ground: f64,
@@ -114,22 +115,6 @@ struct CachedList {
     look: Look,
     colour: ColourBy,
     list: DrawList,
-}
-
-/// What the colour scales that follow the frames have seen since something was opened.
-#[derive(Clone, Debug)]
-struct Ranges {
-    values: SeenRanges,
-    /// The smallest view factor of the frames that were looked at last, A's and B's.
-    least_factor: f64,
-    /// The frames that were looked at last.
-    seen: Vec<Same<Frame>>,
-}
-
-impl Default for Ranges {
-    fn default() -> Self {
-        Self { values: SeenRanges::default(), least_factor: 1.0, seen: Vec::new() }
-    }
 }
 
 const SAFE_LINE: Color32 = Color32::from_rgba_premultiplied(40, 42, 48, 170);
@@ -218,7 +203,7 @@ impl Viewports {
         self.image(ui, eye, Side::B, rect, size, 0.0);
         if let Some(share) = wipe {
             self.image(ui, eye, Side::A, rect, size, share as f32);
-            wipe_line(ui, rect, share, previewer, actions);
+            wipe::show(ui, rect, share, previewer, actions);
         }
         if eye == Eye::Shot {
             self.gate(ui, rect, &previewer.state().look);
@@ -308,28 +293,6 @@ fn shot_view(previewer: &Previewer, scenery: &Scenery) -> Option<View> {
 
 fn pixels(rect: Rect, scale: f32) -> [u32; 2] {
     [rect.width(), rect.height()].map(|points| (points * scale).round().max(1.0) as u32)
-}
-
-/// The line between A and B, which can be dragged.
-fn wipe_line(ui: &Ui, rect: Rect, share: f64, previewer: &Previewer, actions: &mut Vec<Action>) {
-    let x = rect.left() + rect.width() * share as f32;
-    let line = Rect::from_min_max(pos2(x - 5.0, rect.top()), pos2(x + 5.0, rect.bottom()));
-    let id = ui.scope_id().with(("wipe", rect.left() as i32));
-    let response =
-        ui.interact(line, id, Sense::drag()).on_hover_cursor(egui::CursorIcon::ResizeColumn);
-    ui.painter().vline(x, rect.y_range(), Stroke::new(1.5, theme::ACCENT));
-    let font = egui::FontId::proportional(12.0);
-    let label = |text: &str, at: egui::Pos2, align| {
-        ui.painter().text(at, align, text, font.clone(), Color32::BLACK);
-    };
-    let hash = previewer.state().a.as_ref().map_or("", |a| &a.settings_hash);
-    let top = rect.top() + 6.0;
-    label(&format!("A {}", short(hash)), pos2(x - 6.0, top), egui::Align2::RIGHT_TOP);
-    label("B", pos2(x + 6.0, top), egui::Align2::LEFT_TOP);
-    if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
-        let wipe = f64::from((at.x - rect.left()) / rect.width()).clamp(0.0, 1.0);
-        actions.push(Action::Compare { wipe: Some(wipe) });
-    }
 }
 
 /// The digits of a hash that tell settings apart.

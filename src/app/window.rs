@@ -11,6 +11,7 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Window, WindowId};
 
+use super::presses::Presses;
 use super::replay::{Player, Request, check_ended};
 use super::{Desk, theme};
 use crate::preview::{Action, Wake};
@@ -47,6 +48,7 @@ pub fn run(
         shown: None,
         began: Instant::now(),
         next: None,
+        presses: Presses::default(),
         player,
         failure: None,
         losses: 0,
@@ -78,6 +80,7 @@ struct Program {
     began: Instant,
     /// When to redraw even if nothing happens (s since the beginning).
     next: Option<f64>,
+    presses: Presses,
     player: Option<Player>,
     failure: Option<anyhow::Error>,
     /// Times in a row that the device was lost.
@@ -262,6 +265,7 @@ impl Program {
             Some(player) => player.step(&mut self.desk, &mut input, now)?,
             None => Request::Nothing,
         };
+        input.events = self.presses.take(input.events);
         let desk = &mut self.desk;
         let mut output = self.context.run_ui(input, |ui| desk.show(ui));
         let platform = std::mem::take(&mut output.platform_output);
@@ -294,7 +298,9 @@ impl Program {
     ) {
         /// egui says "never" by a delay beyond any patience.
         const NEVER: Duration = Duration::from_secs(3600);
-        let at_once = self.desk.has_actions() || delay == Some(Duration::ZERO);
+        let at_once = self.desk.has_actions()
+            || self.presses.has_more()
+            || delay == Some(Duration::ZERO);
         let animation = delay.filter(|&delay| delay < NEVER).map(|delay| now + delay.as_secs_f64());
         let script = self.player.as_ref().map(|player| now + player.patience());
         let again = (presented == Presented::NotNow).then_some(now + 0.1);
@@ -335,9 +341,9 @@ impl Program {
 
     /// For a window that was not closed but destroyed, so that nobody could be asked.
     fn words_at_the_windows_end(&self) -> &'static str {
-        match self.desk.previewer().state().version.edits.is_empty() {
-            true => "the window was destroyed from outside",
-            false => {
+        match self.desk.previewer().has_unsaved_edits() {
+            false => "the window was destroyed from outside",
+            true => {
                 "the window was destroyed from outside: changed settings that were not saved are lost"
             }
         }

@@ -92,6 +92,7 @@ impl ShotArgs {
     pub fn request(&self) -> Result<Request, Failure> {
         Ok(Request {
             shot: self.shot.clone(),
+            text: None,
             camera: self.camera.clone(),
             sets: self.sets.clone(),
             fps: self.fps,

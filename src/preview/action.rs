@@ -120,7 +120,7 @@ pub enum Action {
         frame: f64,
         cut: bool,
     },
-    /// Focal length (mm), at the key of a frame or, without one, for the whole path.
+    /// Focal length (mm), at a frame, which gets a key if it has none, or for the whole path.
     SetFocalLength {
         frame: Option<f64>,
         focal_mm: f64,

@@ -12,6 +12,10 @@ use serde_json::Value;
 pub struct Edits(BTreeMap<String, Value>);
 
 impl Edits {
+    pub const fn none() -> Self {
+        Self(BTreeMap::new())
+    }
+
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -29,6 +33,13 @@ impl Edits {
         self.0.remove(path);
     }
 
+    /// Those that others do not say likewise.
+    pub fn beyond(&self, others: &Edits) -> Self {
+        let is_other = |(path, value): &(&String, &Value)| others.get(path) != Some(*value);
+        let own = self.0.iter().filter(is_other);
+        Self(own.map(|(path, value)| (path.clone(), value.clone())).collect())
+    }
+
     /// In order of path.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &Value)> {
         self.0.iter().map(|(path, value)| (path.as_str(), value))
@@ -36,8 +47,12 @@ impl Edits {
 
     /// As overrides of the command line, `path=value`.
     pub fn overrides(&self) -> Vec<String> {
-        self.iter().map(|(path, value)| format!("{path}={value}")).collect()
+        self.iter().map(|(path, value)| edit_as_override(path, value)).collect()
     }
+}
+
+pub(super) fn edit_as_override(path: &str, value: &Value) -> String {
+    format!("{path}={value}")
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use std::time::SystemTime;
 
 use super::key::FrameKey;
 use super::message::{Event, Outbox};
+use super::planner::chain;
 use crate::run::{RunReader, read_frame_file, write_frame_file};
 use crate::sim::Frame;
 
@@ -111,14 +112,14 @@ impl Work {
             Wish::Load(key) => {
                 let Some(folder) = &self.folder else { return };
                 let path = path_of(folder, key);
-                let frame = read_frame_file(&path).map_err(|error| error.to_string());
+                let frame = read_frame_file(&path).map_err(|error| chain(&error));
                 if frame.is_ok() {
                     touch(&path);
                 }
                 self.outbox.send(Event::Loaded { key, frame: frame.map(Arc::new) });
             }
             Wish::LoadOfRun(key, run, number) => {
-                let frame = run.frame(number).map_err(|error| error.to_string());
+                let frame = run.frame(number).map_err(|error| chain(&error));
                 self.outbox.send(Event::Loaded { key, frame: frame.map(Arc::new) });
             }
             Wish::Look(keys) => {
@@ -135,7 +136,7 @@ impl Work {
         let path = path_of(folder, key);
         let written = fs::create_dir_all(path.parent().unwrap_or(folder))
             .map_err(|error| format!("cannot create {:?}: {error}", folder.display()))
-            .and_then(|()| write_frame_file(&path, frame).map_err(|error| error.to_string()));
+            .and_then(|()| write_frame_file(&path, frame).map_err(|error| chain(&error)));
         match written {
             Ok(()) => self.outbox.send(Event::Kept { key }),
             Err(why) if !self.has_failed => {

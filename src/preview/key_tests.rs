@@ -17,6 +17,7 @@ fn plan(edit: impl FnOnce(&mut Value), settings: &[(&str, Value)], sizing: Sizin
     settings.iter().for_each(|(path, value)| edits.set(path, value.clone()));
     let request = Request {
         shot: None,
+        text: None,
         camera: None,
         sets: vec!["view.anticipation_frames=5".into()],
         fps: None,

@@ -4,6 +4,7 @@
 mod action;
 mod camera_edit;
 mod courtesy;
+mod differences;
 mod edits;
 mod engine;
 mod history;
@@ -27,6 +28,7 @@ pub use camera_edit::{
     CameraEdit, CameraEditError, Cut, LensScope, LensValue, Placement, camera_setting,
 };
 pub use courtesy::give_way;
+pub use differences::{Difference, differences};
 pub use edits::Edits;
 pub use engine::{Engine, Job, JobId};
 pub use history::{History, Version};

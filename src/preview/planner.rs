@@ -10,9 +10,11 @@ use std::thread;
 use std::time::{Duration, SystemTime};
 
 use super::message::{Event, Outbox};
+use super::edits::edit_as_override;
 use super::{Edits, Plan};
-use crate::request::Request;
+use crate::request::{Request, RequestError};
 use crate::run::RunReader;
+use crate::scene::{LoadError, Place, Problem};
 
 /// How often files are looked at.
 const LOOK_EVERY: Duration = Duration::from_secs(1);
@@ -88,7 +90,7 @@ fn work(queue: &Receiver<(u64, Source, Edits)>, outbox: &Outbox) {
 fn opened(source: &Source, edits: &Edits) -> Result<Opened, String> {
     match source {
         Source::Shot(request) => {
-            let plan = Plan::new(request, edits).map_err(|error| error.to_string())?;
+            let plan = Plan::new(request, edits).map_err(|error| words(error, edits))?;
             Ok(Opened::Shot(Box::new(plan)))
         }
         Source::Run(folder) => {
@@ -98,8 +100,32 @@ fn opened(source: &Source, edits: &Edits) -> Result<Opened, String> {
     }
 }
 
+/// Of a value that an edit gives, the setting and the value are named; the command line, which has its
+/// own words for it, is not where it was given.
+fn words(error: RequestError, edits: &Edits) -> String {
+    /// Longer values say nothing at a glance (characters).
+    const VALUE_MAX: usize = 40;
+    let (argument, problem) = match &error {
+        RequestError::Load(LoadError { place: Some(Place::Set { argument }), problem }) => {
+            (argument, problem)
+        }
+        RequestError::Load(LoadError {
+            place: Some(Place::Text { file, line: 1, column: 1 }),
+            problem: Problem::Syntax(_),
+        }) => return format!("{file} is no shot: it is no text of JSON"),
+        _ => return error.to_string(),
+    };
+    match edits.iter().find(|(path, value)| **argument == edit_as_override(path, value)) {
+        Some((path, value)) if value.to_string().len() <= VALUE_MAX => {
+            format!("{path} cannot be {value}: {problem}")
+        }
+        Some((path, _)) => format!("{path}: {problem}"),
+        None => error.to_string(),
+    }
+}
+
 /// An error with its causes, on one line.
-fn chain(error: &dyn std::error::Error) -> String {
+pub(super) fn chain(error: &dyn std::error::Error) -> String {
     let mut text = error.to_string();
     let mut cause = error.source();
     while let Some(error) = cause {

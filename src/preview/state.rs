@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::action::{Action, Reach};
 use super::history::{History, Version};
@@ -187,6 +188,8 @@ pub struct Remembered {
     /// The longest look-ahead that they were simulated with (frames).
     pub anticipation: f64,
     pub settings_hash: String,
+    /// All settings, with nothing left to defaults.
+    pub resolved: Arc<Value>,
 }
 
 /// A question before files are written over.
@@ -199,10 +202,13 @@ pub struct Overwriting {
 }
 
 /// Something the user should know.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Message {
     pub level: Level,
     pub text: String,
+    /// When it goes by itself (s, the clock of [`tick`](super::Previewer::tick)), if that is known yet;
+    /// only notes do.
+    pub until: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -212,19 +218,37 @@ pub enum Level {
     Error,
 }
 
+/// Notes go after so long (s): the time to read two lines.
+const NOTE_LASTS: f64 = 10.0;
 /// Messages kept; older ones go.
 const MESSAGES_KEPT: usize = 20;
 
 impl State {
     /// A message that repeats the last one is said once.
     pub fn say(&mut self, level: Level, text: impl Into<String>) {
-        let message = Message { level, text: text.into() };
-        if self.messages.last() != Some(&message) {
-            self.messages.push(message);
+        let message = Message { level, text: text.into(), until: None };
+        let is_last = |last: &&mut Message| last.level == level && last.text == message.text;
+        match self.messages.last_mut().filter(is_last) {
+            Some(last) => last.until = None,
+            None => self.messages.push(message),
         }
         if self.messages.len() > MESSAGES_KEPT {
             self.messages.remove(0);
         }
+    }
+
+    /// Lets notes go that have been there long enough. Returns when the next one does.
+    pub(super) fn let_notes_go(&mut self, now: f64) -> Option<f64> {
+        for note in self.messages.iter_mut().filter(|message| message.level == Level::Note) {
+            note.until.get_or_insert(now + NOTE_LASTS);
+        }
+        self.messages.retain(|message| message.until.is_none_or(|until| until > now));
+        self.messages.iter().filter_map(|message| message.until).reduce(f64::min)
+    }
+
+    /// Takes back a message that is not true any more.
+    pub(super) fn take_back(&mut self, text: &str) {
+        self.messages.retain(|message| message.text != text);
     }
 }
 

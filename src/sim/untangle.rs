@@ -147,8 +147,9 @@ impl Simulation {
         if !left.is_empty() {
             let contours = contour_count(&self.cloth.tree, &self.cloth.state.position, &left);
             report.warnings.push(format!(
-                "cloth passes through cloth: {} of {count} crossings are left, in {contours} contours",
-                left.len()
+                "cloth passes through cloth: {} of {count} crossings are left, in {contours} {}",
+                left.len(),
+                if contours == 1 { "contour" } else { "contours" }
             ));
         }
         left

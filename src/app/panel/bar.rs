@@ -1,7 +1,7 @@
 //! The bar on top: files, views, colours, the simulation, undo, comparison.
 
 use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Button, DragValue, PopupCloseBehavior, RichText, Ui, vec2};
+use egui::{Button, DragValue, PopupCloseBehavior, RichText, Ui};
 
 use super::Context;
 use crate::app::theme;
@@ -23,7 +23,8 @@ pub fn show(ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
 }
 
 fn groups(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
-    files(ui, context, wish);
+    MenuButton::new("File").ui(ui, |ui| files(ui, wish));
+    writing(ui, context, wish);
     ui.separator();
     layouts(ui, context, wish);
     colours(ui, context, wish);
@@ -36,7 +37,11 @@ fn groups(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
 
 /// The same where there is no room for it on one line.
 fn menus(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
-    MenuButton::new("File").ui(ui, |ui| files(ui, context, wish));
+    MenuButton::new("File").ui(ui, |ui| {
+        writing(ui, context, wish);
+        ui.separator();
+        files(ui, wish);
+    });
     lasting_menu("Show").ui(ui, |ui| {
         layouts(ui, context, wish);
         ui.separator();
@@ -53,19 +58,28 @@ fn lasting_menu(name: &'static str) -> MenuButton<'static> {
     MenuButton::new(name).config(stays)
 }
 
-fn files(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
-    let open = |panel| Action::SetPanel { panel, open: true };
-    if ui.button("Open").on_hover_text("a shot, an ARCSim scene or a run folder (Ctrl O)").clicked()
-    {
-        wish(open(PanelName::Files));
+fn files(ui: &mut Ui, wish: &mut impl FnMut(Action)) {
+    let files = || Action::SetPanel { panel: PanelName::Files, open: true };
+    for (name, hint, action) in [
+        ("Open ...", "a shot, an ARCSim scene or a run folder (Ctrl O)", files()),
+        ("Save as ...", "the shot under another name (Ctrl Shift S)", files()),
+        ("Own shot", "the shot that comes with the program", Action::OpenOwn),
+        ("Reload", "all files of the shot, read again", Action::Reload),
+        ("Quit", "Ctrl Q", Action::Quit),
+    ] {
+        if ui.button(name).on_hover_text(hint).clicked() {
+            wish(action);
+        }
     }
-    let has_edits = !context.previewer.state().version.edits.is_empty();
-    let save = ui.add_enabled(has_edits, Button::new("Save"));
+}
+
+fn writing(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
+    let save = ui.add_enabled(context.previewer.has_unsaved_edits(), Button::new("Save"));
     if save.on_hover_text("the changed settings into the shot's file (Ctrl S)").clicked() {
         wish(Action::Save);
     }
     if ui.button("Export").on_hover_text("stills, sheets, pictures, video, a run").clicked() {
-        wish(open(PanelName::Export));
+        wish(Action::SetPanel { panel: PanelName::Export, open: true });
     }
 }
 
@@ -150,19 +164,28 @@ fn simulation(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action))
     if ui.button("Re-run").on_hover_text(hint).clicked() {
         wish(Action::ReRun);
     }
-    let reach = previewer.state().reach;
-    let (name, other) = match reach {
-        Reach::FromHere => ("from here", Reach::FromStart),
-        Reach::FromStart => ("from the start", Reach::FromHere),
-    };
-    let hint = "whether a changed setting holds from the current frame on or from the start; camera \
-                edits always reach just the frames that can see them";
+    reach(ui, previewer.state().reach, wish);
+}
+
+/// From where a changed setting holds.
+fn reach(ui: &mut Ui, now: Reach, wish: &mut impl FnMut(Action)) {
     /// As wide as the longer of its two names (points): what is beside it stays where it is.
-    const REACH_WIDTH: f32 = 100.0;
-    let button = Button::new(name).min_size(vec2(REACH_WIDTH, 0.0));
-    if ui.add(button).on_hover_text(hint).clicked() {
-        wish(Action::SetReach { reach: other });
-    }
+    const WIDTH: f32 = 115.5;
+    const NAMES: [(Reach, &str); 2] =
+        [(Reach::FromHere, "from here"), (Reach::FromStart, "from the start")];
+    let name = NAMES.iter().find(|(reach, _)| *reach == now).map_or("", |(_, name)| name);
+    let chosen = egui::ComboBox::from_id_salt("reach").selected_text(name).width(WIDTH);
+    let list = chosen.show_ui(ui, |ui| {
+        for (reach, name) in NAMES {
+            if ui.selectable_label(now == reach, name).clicked() {
+                wish(Action::SetReach { reach });
+            }
+        }
+    });
+    list.response.on_hover_text(
+        "whether a changed setting holds from the current frame on or from the start; camera edits \
+         always reach just the frames that can see them",
+    );
 }
 
 /// Whether what is there is what a clean run gives. Its place is kept free for it.

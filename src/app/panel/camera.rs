@@ -16,8 +16,17 @@ const KEYS_EVERY: u32 = 10;
 pub struct CameraPanel {
     /// The lens being dragged, which holds when it is let go.
     dragged_lens: Option<f64>,
+    /// As chosen last; until then it follows the path.
+    lens_for: Option<LensFor>,
     /// The camera of the plan that it was read from.
     read: Option<(Arc<Plan>, Result<CameraEdit, CameraEditError>)>,
+}
+
+/// What a changed lens holds for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum LensFor {
+    ThisFrame,
+    WholePath,
 }
 
 impl CameraPanel {
@@ -82,7 +91,7 @@ impl CameraPanel {
                 }
             }
         });
-        self.lens(ui, camera, current, key.is_some(), actions);
+        self.lens(ui, plan, camera, current, actions);
         let shown = |frame: f64| frame + plan.requested.scene.first_frame as f64;
         let keys: Vec<String> = camera
             .keys()
@@ -92,20 +101,25 @@ impl CameraPanel {
         ui.label(RichText::new(format!("keys: {}", keys.join(", "))).small().color(theme::FAINT));
     }
 
+    /// The lens at the current frame, and what it is to change for.
     fn lens(
         &mut self,
         ui: &mut Ui,
+        plan: &Plan,
         camera: &CameraEdit,
         current: f64,
-        at_key: bool,
         actions: &mut Vec<Action>,
     ) {
-        let frame = if at_key { current } else { camera.keys()[0].frame };
-        let Ok(lens) = camera.lens(frame) else { return };
+        let between_keys = || plan.camera().map(|path| LensValue::of(path.lens(current)));
+        let Some(lens) = camera.lens(current).ok().or_else(between_keys) else { return };
         let (name, value, range, suffix) = match lens {
             LensValue::FovYDeg(degrees) => ("field of view", degrees, 1.0..=150.0, " deg"),
             LensValue::FocalMm(focal) => ("focal length", focal, 4.0..=400.0, " mm"),
         };
+        let mut lens_for = self.lens_for.unwrap_or(match camera.zooms() {
+            true => LensFor::ThisFrame,
+            false => LensFor::WholePath,
+        });
         let mut now = self.dragged_lens.unwrap_or(value);
         ui.horizontal_wrapped(|ui| {
             let label = ui.label(name);
@@ -120,14 +134,21 @@ impl CameraPanel {
                 self.dragged_lens = Some(now);
             } else if response.drag_stopped() || response.changed() {
                 self.dragged_lens = None;
-                let frame = at_key.then_some(current);
+                let frame = (lens_for == LensFor::ThisFrame).then_some(current);
                 actions.push(match lens {
                     LensValue::FovYDeg(_) => Action::SetFieldOfView { frame, degrees: now },
                     LensValue::FocalMm(_) => Action::SetFocalLength { frame, focal_mm: now },
                 });
             }
-            let scope = if at_key { "at this key" } else { "whole path" };
-            ui.label(scope);
+            for (choice, name, hint) in [
+                (LensFor::ThisFrame, "at this frame", "changed, it sets a key here"),
+                (LensFor::WholePath, "whole path", "changed, it is that of all keys"),
+            ] {
+                let chosen = ui.selectable_value(&mut lens_for, choice, name).on_hover_text(hint);
+                if chosen.clicked() {
+                    self.lens_for = Some(choice);
+                }
+            }
         });
     }
 }

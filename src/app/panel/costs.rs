@@ -1,27 +1,20 @@
 //! What frames cost, live: faces and seconds over the timeline, as in the papers' figures of speed, with
 //! the stages stacked and, when asked for, what the same shot costs whoever looks.
 
-use egui::{Color32, Label, Ui, Vec2};
-use egui_plot::{Bar, BarChart, Legend, Line, Plot, PlotPoints, VLine};
+mod curves;
+
+use egui::{Color32, Grid, Label, RichText, ScrollArea, Sense, Ui, Vec2, vec2};
+use egui_plot::{Plot, PlotUi, VLine};
 
 use super::Context;
 use crate::app::theme;
-use crate::preview::{Action, Cost, Timeline};
-use crate::sim::StageSeconds;
+use crate::preview::{Action, Cost, FrameStatus, Previewer, Scenery, Timeline};
+use curves::{Quantity, lines, round_step, stage_names, stages};
 
 /// See the module.
 #[derive(Default)]
 pub struct CostsPanel {
     shows: Quantity,
-}
-
-#[derive(Clone, Copy, Default, PartialEq, Eq)]
-enum Quantity {
-    #[default]
-    Faces,
-    Seconds,
-    Cumulative,
-    Stages,
 }
 
 const QUANTITIES: [(Quantity, &str); 4] = [
@@ -32,27 +25,41 @@ const QUANTITIES: [(Quantity, &str); 4] = [
 ];
 
 /// (points).
-const PLOT_MIN: Vec2 = Vec2::new(64.0, 24.0);
+const PLOT_MIN: Vec2 = vec2(64.0, 24.0);
+/// Of the names beside the plot, for stages in two columns (points).
+const LEGEND_WIDTH: f32 = 190.0;
+
+/// Of a colour in the legend (points).
+const SWATCH: Vec2 = vec2(9.0, 9.0);
 
 const OURS: Color32 = Color32::from_rgb(96, 186, 150);
 const ADAPTIVE: Color32 = Color32::from_rgb(236, 130, 96);
 
-/// One for each stage, apart in lightness as well as in hue.
-const STAGE_COLOURS: [Color32; 9] = [
-    Color32::from_rgb(120, 124, 132),
-    Color32::from_rgb(94, 160, 214),
-    Color32::from_rgb(62, 98, 168),
-    Color32::from_rgb(226, 150, 74),
-    Color32::from_rgb(178, 208, 120),
-    Color32::from_rgb(96, 186, 150),
-    Color32::from_rgb(196, 96, 120),
-    Color32::from_rgb(150, 110, 190),
-    Color32::from_rgb(84, 86, 92),
-];
+/// What frames cost, by number, apart by the settings that made them.
+struct Costs {
+    /// Those in force.
+    ours: Vec<Option<Cost>>,
+    /// Others, which no speed-up counts.
+    stale: Vec<Option<Cost>>,
+}
+
+impl Costs {
+    fn of(timeline: &Timeline) -> Self {
+        let all = 0..timeline.len() as u32;
+        let is_stale = |frame| timeline.status(frame) == FrameStatus::Stale;
+        let cost = |frame| timeline.slot(frame).and_then(|slot| slot.cost);
+        Self {
+            ours: all.clone().map(|f| cost(f).filter(|_| !is_stale(f))).collect(),
+            stale: all.map(|f| cost(f).filter(|_| is_stale(f))).collect(),
+        }
+    }
+}
 
 impl CostsPanel {
     pub fn show(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
         let previewer = context.previewer;
+        let Some(scenery) = previewer.scenery() else { return };
+        let costs = Costs::of(previewer.timeline());
         ui.horizontal(|ui| {
             for (quantity, name) in QUANTITIES {
                 ui.selectable_value(&mut self.shows, quantity, name);
@@ -61,11 +68,32 @@ impl CostsPanel {
             if previewer.plan().is_some() {
                 adaptive(ui, context, actions);
             }
-            summary(ui, context);
+            summary(ui, context, &costs);
         });
-        let timeline = previewer.timeline();
-        let (ours, theirs) = (costs(timeline), previewer.rival_costs());
+        let room = ui.available_size();
+        let legend = LEGEND_WIDTH.min(0.4 * room.x);
+        ui.horizontal_top(|ui| {
+            let size = vec2(room.x - legend - ui.spacing().item_spacing.x, room.y);
+            if let Some(frame) = self.plot(ui, size, previewer, scenery, &costs) {
+                actions.push(Action::GoTo { frame });
+            }
+            ScrollArea::vertical().show(ui, |ui| self.legend(ui, previewer, &costs));
+        });
+    }
+
+    /// Returns the frame that was clicked.
+    fn plot(
+        &self,
+        ui: &mut Ui,
+        size: Vec2,
+        previewer: &Previewer,
+        scenery: &Scenery,
+        costs: &Costs,
+    ) -> Option<u32> {
+        let last = f64::from(previewer.timeline().last());
         let current = f64::from(previewer.state().playback.current);
+        let unit = if self.shows == Quantity::Faces { "" } else { " s" };
+        let first_frame = scenery.shown(0) as f64;
         let plot = Plot::new("costs")
             .allow_drag(false)
             .allow_zoom(false)
@@ -73,35 +101,81 @@ impl CostsPanel {
             .allow_boxed_zoom(false)
             .include_y(0.0)
             .include_x(0.0)
-            .include_x(f64::from(timeline.last()))
+            .include_x(last)
+            .width(size.x)
+            .height(size.y)
             .min_size(PLOT_MIN)
             .show_x(false)
             .y_axis_min_width(44.0)
+            .x_axis_formatter(move |mark, _| format!("{}", mark.value + first_frame))
+            .y_axis_formatter(move |mark, _| {
+                format!("{:.*}{unit}", curves::decimals(mark.step_size), mark.value)
+            })
             .y_grid_spacer(egui_plot::uniform_grid_spacer(|input| {
-                let span = (input.bounds.1 - input.bounds.0).abs().max(1e-9);
-                let step = round_step(span);
+                let step = round_step((input.bounds.1 - input.bounds.0).abs().max(1e-9));
                 [step, step, step]
-            }))
-            .legend(Legend::default().background_alpha(0.5));
-        let shows = self.shows;
+            }));
         let response = plot.show(ui, |plot| {
             plot.vline(VLine::new("", current).color(theme::ACCENT));
-            match shows {
-                Quantity::Stages => stages(&ours).into_iter().for_each(|bars| plot.bar_chart(bars)),
-                _ => {
-                    plot.line(line("this run", OURS, shows, &ours));
-                    if theirs.iter().any(Option::is_some) {
-                        plot.line(line("adaptive, whoever looks", ADAPTIVE, shows, theirs));
-                    }
-                }
-            }
+            self.curves(plot, previewer, costs);
             let clicked = plot.response().clicked() || plot.response().dragged();
             plot.pointer_coordinate().filter(|_| clicked)
         });
-        if let Some(at) = response.inner {
-            let frame = at.x.round().clamp(0.0, f64::from(timeline.last())) as u32;
-            actions.push(Action::GoTo { frame });
+        response.inner.map(|at| at.x.round().clamp(0.0, last) as u32)
+    }
+
+    fn curves(&self, plot: &mut PlotUi<'_>, previewer: &Previewer, costs: &Costs) {
+        if self.shows == Quantity::Stages {
+            for (costs, strength) in [(&costs.ours, 1.0), (&costs.stale, 0.4)] {
+                stages(costs, strength).into_iter().for_each(|bars| plot.bar_chart(bars));
+            }
+            return;
         }
+        let mut curves = vec![
+            (theme::status_colour(FrameStatus::Stale), costs.stale.as_slice()),
+            (ADAPTIVE, previewer.rival_costs()),
+            (OURS, &costs.ours),
+        ];
+        if self.shows == Quantity::Cumulative {
+            // A sum of what is out of date is that of nothing.
+            curves.remove(0);
+        }
+        for (colour, costs) in curves {
+            lines(costs, self.shows, colour).into_iter().for_each(|line| plot.line(line));
+        }
+    }
+
+    /// Beside the plot, where it covers nothing.
+    fn legend(&self, ui: &mut Ui, previewer: &Previewer, costs: &Costs) {
+        let has = |costs: &[Option<Cost>]| costs.iter().any(Option::is_some);
+        let names: Vec<(Color32, &str)> = match self.shows {
+            Quantity::Stages => stage_names(),
+            shows => {
+                let stale = has(&costs.stale) && shows != Quantity::Cumulative;
+                [
+                    (true, OURS, "these settings"),
+                    (has(previewer.rival_costs()), ADAPTIVE, "adaptive, whoever looks"),
+                    (stale, theme::status_colour(FrameStatus::Stale), "other settings (stale)"),
+                ]
+                .into_iter()
+                .filter_map(|(is_there, colour, name)| is_there.then_some((colour, name)))
+                .collect()
+            }
+        };
+        let columns = if names.len() > 4 { 2 } else { 1 };
+        Grid::new("cost colours").num_columns(columns).spacing([8.0, 1.0]).show(ui, |ui| {
+            for row in names.chunks(columns) {
+                for &(colour, name) in row {
+                    ui.horizontal(|ui| {
+                        ui.spacing_mut().item_spacing.x = 4.0;
+                        let (swatch, _) = ui.allocate_exact_size(SWATCH, Sense::hover());
+                        ui.painter().rect_filled(swatch, 1.0, colour);
+                        ui.label(RichText::new(name).small().color(theme::FAINT));
+                    });
+                }
+                ui.end_row();
+            }
+        });
     }
 }
 
@@ -116,34 +190,25 @@ fn adaptive(ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
 }
 
 /// Of the frames that both have: how much faster, how many fewer faces.
-fn summary(ui: &mut Ui, context: &Context<'_>) {
-    let previewer = context.previewer;
-    let ours = costs(previewer.timeline());
-    let known: Vec<Cost> = ours.iter().flatten().copied().collect();
-    if known.is_empty() {
+fn summary(ui: &mut Ui, context: &Context<'_>, costs: &Costs) {
+    let known: Vec<Cost> = costs.ours.iter().flatten().copied().collect();
+    let stale = costs.stale.iter().flatten().count();
+    if known.is_empty() && stale == 0 {
         return;
     }
-    let seconds: f64 = known.iter().map(|cost| cost.wall).sum();
-    let faces = known.iter().map(|cost| cost.faces as f64).sum::<f64>() / known.len() as f64;
-    let mut words = format!(
-        "{} frames, {faces:.0} faces, {:.3} s a frame",
-        known.len(),
-        seconds / known.len() as f64
-    );
-    let both: Vec<(Cost, Cost)> =
-        ours.iter().zip(previewer.rival_costs()).filter_map(|(a, b)| (*a).zip(*b)).collect();
-    let ours_in_all: f64 = both.iter().map(|(a, _)| a.wall).sum();
-    if ours_in_all > 0.0 {
-        let theirs: f64 = both.iter().map(|(_, b)| b.wall).sum();
-        let faces: f64 = both.iter().map(|(a, _)| a.faces as f64).sum();
-        let their_faces: f64 = both.iter().map(|(_, b)| b.faces as f64).sum();
-        words += &format!(
-            "   {:.1} x the speed of adaptive, {:.0} % of its faces over {} frames",
-            theirs / ours_in_all,
-            100.0 * faces / their_faces.max(1.0),
-            both.len()
-        );
+    let mut words = match known.len() {
+        0 => "no frame of these settings yet".to_owned(),
+        count => {
+            let seconds: f64 = known.iter().map(|cost| cost.wall).sum();
+            let faces = known.iter().map(|cost| cost.faces as f64).sum::<f64>();
+            let [faces, seconds] = [faces, seconds].map(|sum| sum / count as f64);
+            format!("{count} frames, {faces:.0} faces, {seconds:.3} s a frame")
+        }
+    };
+    if stale > 0 {
+        words += &format!(" ({stale} stale left out)");
     }
+    words += &against_adaptive(&costs.ours, context.previewer.rival_costs()).unwrap_or_default();
     ui.add(Label::new(words).truncate()).on_hover_ui(|ui| {
         let pace = context.pace.report();
         ui.label(format!(
@@ -154,74 +219,19 @@ fn summary(ui: &mut Ui, context: &Context<'_>) {
     });
 }
 
-/// Between lines of a scale over a span: 1, 2 or 5 times a power of ten, so that there are three at most
-/// and their numbers have room in a low panel.
-fn round_step(span: f64) -> f64 {
-    let least = span / 3.0;
-    let decade = 10f64.powf(least.log10().floor());
-    let steps = [1.0, 2.0, 5.0].map(|factor| factor * decade);
-    steps.into_iter().find(|&step| step >= least).unwrap_or(10.0 * decade)
-}
-
-fn costs(timeline: &Timeline) -> Vec<Option<Cost>> {
-    (0..timeline.len() as u32).map(|frame| timeline.slot(frame)?.cost).collect()
-}
-
-fn line(
-    name: &'static str,
-    colour: Color32,
-    quantity: Quantity,
-    costs: &[Option<Cost>],
-) -> Line<'static> {
-    let mut sum = 0.0;
-    let points: PlotPoints<'static> = costs
-        .iter()
-        .enumerate()
-        .filter_map(|(frame, cost)| {
-            let cost = (*cost)?;
-            sum += cost.wall;
-            let value = match quantity {
-                Quantity::Faces => cost.faces as f64,
-                Quantity::Seconds | Quantity::Stages => cost.wall,
-                Quantity::Cumulative => sum,
-            };
-            Some([frame as f64, value])
-        })
-        .collect();
-    Line::new(name, points).color(colour).width(1.6)
-}
-
-/// Seconds of each stage upon those before it.
-fn stages(costs: &[Option<Cost>]) -> Vec<BarChart> {
-    let names = StageSeconds::default().entries().map(|(name, _)| name);
-    names
-        .into_iter()
-        .enumerate()
-        .map(|(stage, name)| {
-            let bars = costs.iter().enumerate().filter_map(|(frame, cost)| {
-                let entries = cost.as_ref()?.stages.entries();
-                let below: f64 = entries[..stage].iter().map(|(_, seconds)| seconds).sum();
-                let bar = Bar::new(frame as f64, entries[stage].1).base_offset(below).width(0.9);
-                Some(bar.fill(STAGE_COLOURS[stage]).stroke(egui::Stroke::NONE))
-            });
-            BarChart::new(name, bars.collect()).color(STAGE_COLOURS[stage])
-        })
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_scale_has_one_to_three_round_steps() {
-        for (span, step) in [(3.0, 1.0), (3.1, 2.0), (4300.0, 2000.0), (0.07, 0.05), (29.0, 10.0)] {
-            assert!((round_step(span) / step - 1.0).abs() < 1e-9, "{span}: {}", round_step(span));
-        }
-        for k in 1..2000 {
-            let span = 1e-3 * 1.01f64.powi(k);
-            let lines = span / round_step(span);
-            assert!((1.2..=3.0 + 1e-9).contains(&lines), "{span}: {lines}");
-        }
-    }
+fn against_adaptive(ours: &[Option<Cost>], theirs: &[Option<Cost>]) -> Option<String> {
+    let both: Vec<(Cost, Cost)> =
+        ours.iter().zip(theirs).filter_map(|(a, b)| (*a).zip(*b)).collect();
+    let seconds: f64 = both.iter().map(|(a, _)| a.wall).sum();
+    let faces: f64 = both.iter().map(|(a, _)| a.faces as f64).sum();
+    let their_seconds: f64 = both.iter().map(|(_, b)| b.wall).sum();
+    let their_faces: f64 = both.iter().map(|(_, b)| b.faces as f64).sum();
+    (seconds > 0.0).then(|| {
+        format!(
+            "   {:.1} x the speed of adaptive, {:.0} % of its faces over {} frames",
+            their_seconds / seconds,
+            100.0 * faces / their_faces.max(1.0),
+            both.len()
+        )
+    })
 }

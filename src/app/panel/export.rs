@@ -45,6 +45,7 @@ impl ExportPanel {
             .constrain_to(ui.max_rect())
             .open(&mut open)
             .resizable(false)
+            .vscroll(true)
             .show(ui.ctx(), |ui| {
                 for (kind, name, hint) in KINDS {
                     ui.radio_value(&mut self.kind, kind, name).on_hover_text(hint);

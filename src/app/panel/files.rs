@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use egui::{RichText, ScrollArea, TextEdit, Ui};
+use egui::{Label, RichText, ScrollArea, TextEdit, Ui};
 
 use super::Context;
 use crate::app::theme;
@@ -43,7 +43,7 @@ impl Default for FilesPanel {
 impl FilesPanel {
     pub fn show(&mut self, ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
         let mut open = true;
-        egui::Window::new("Files")
+        egui::Window::new("Open and save as")
             .constrain_to(ui.max_rect())
             .open(&mut open)
             .default_width(520.0)
@@ -60,7 +60,7 @@ impl FilesPanel {
     /// The path, what can be done with it, and why it could not be done.
     fn typed(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
         let field =
-            TextEdit::singleline(&mut self.path).hint_text("path").desired_width(f32::INFINITY);
+            TextEdit::singleline(&mut self.path).hint_text("path to open, or to save as").desired_width(f32::INFINITY);
         let response = ui.add(field);
         let entered = response.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
         ui.horizontal(|ui| {
@@ -135,19 +135,25 @@ impl FilesPanel {
     }
 }
 
-/// The program's own shot, and what was open before.
+/// The program's own shot, and what was open before, each with the folder it is in.
 fn recent(ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
-    ui.horizontal_wrapped(|ui| {
+    ui.horizontal(|ui| {
+        ui.strong("Recent");
         if ui.button("The program's own shot").clicked() {
             actions.push(Action::OpenOwn);
         }
-        for path in &context.preferences.recent {
+    });
+    for path in &context.preferences.recent {
+        ui.horizontal(|ui| {
             let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-            if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+            if ui.selectable_label(false, name).clicked() {
                 actions.push(Action::Open { path: path.clone() });
             }
-        }
-    });
+            let folder = path.parent().unwrap_or(Path::new("")).display().to_string();
+            ui.add(Label::new(RichText::new(folder).small().color(theme::FAINT)).truncate());
+        });
+    }
+    ui.separator();
 }
 
 fn is_plain_folder(path: &Path) -> bool {

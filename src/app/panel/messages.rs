@@ -1,59 +1,103 @@
-//! What went wrong or needs a word, and files that have changed on disk.
+//! What went wrong or needs a word, files that have changed on disk, an export under way, and questions.
 
 use egui::{Align2, RichText, Ui, vec2};
 
 use super::Context;
 use crate::app::export::ExportState;
 use crate::app::theme;
-use crate::preview::Action;
+use crate::preview::{Action, Level};
 
 /// Messages shown at a time; the others wait behind them.
 const SHOWN: usize = 5;
+/// Room for the views' captions (points).
+const ABOVE_CAPTIONS: f32 = 28.0;
+
+/// Of their texts (points).
+const WIDTH_MAX: f32 = 460.0;
 
 pub fn show(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
-    changed_files(ui, context, actions);
+    legend(ui, context);
+    let area = egui::Area::new(egui::Id::unique("messages"))
+        // Whatever else is opened lies over them.
+        .order(egui::Order::Background)
+        .pivot(Align2::LEFT_BOTTOM)
+        .constrain_to(ui.max_rect())
+        .fixed_pos(ui.max_rect().left_bottom() + vec2(10.0, -ABOVE_CAPTIONS));
+    area.show(ui.ctx(), |ui| {
+        said(ui, context, actions);
+        changed_files(ui, context, actions);
+        export(ui, context, actions);
+    });
     unsaved(ui, context, actions);
     overwriting(ui, context, actions);
-    export(ui, context, actions);
-    legend(ui, context);
+}
+
+/// The newest last.
+fn said(ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
     let messages = &context.previewer.state().messages;
-    if messages.is_empty() {
-        return;
+    let hidden = messages.len().saturating_sub(SHOWN);
+    if messages.len() > 1 {
+        let name = match hidden {
+            0 => "dismiss all".to_owned(),
+            more => format!("dismiss all ({more} more)"),
+        };
+        if ui.small_button(name).clicked() {
+            // From the last one, so that those before it stay where they are.
+            let all = (0..messages.len()).rev();
+            actions.extend(all.map(|index| Action::DismissMessage { index }));
+        }
     }
-    let area = egui::Area::new(egui::Id::unique("messages"))
-        .anchor(Align2::LEFT_TOP, vec2(10.0, 10.0) + ui.max_rect().min.to_vec2());
-    area.show(ui.ctx(), |ui| {
-        for (index, message) in messages.iter().enumerate().rev().take(SHOWN) {
-            egui::Frame::popup(ui.style()).show(ui, |ui| {
-                ui.set_max_width(460.0);
-                ui.horizontal(|ui| {
-                    if ui.small_button("x").on_hover_text("dismiss").clicked() {
-                        actions.push(Action::DismissMessage { index });
-                    }
-                    let text =
-                        RichText::new(&message.text).color(theme::level_colour(message.level));
-                    ui.add(egui::Label::new(text).wrap());
-                });
-            });
+    for (index, message) in messages.iter().enumerate().skip(hidden) {
+        card(ui, |ui| {
+            if ui.small_button("x").on_hover_text("dismiss").clicked() {
+                actions.push(Action::DismissMessage { index });
+            }
+            let text = RichText::new(&message.text).color(theme::level_colour(message.level));
+            ui.add(egui::Label::new(text).wrap());
+        });
+    }
+}
+
+/// Something with a word in it, on one line if it fits.
+fn card(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
+    egui::Frame::popup(ui.style()).show(ui, |ui| {
+        ui.set_max_width(WIDTH_MAX);
+        ui.horizontal(content);
+    });
+}
+
+fn changed_files(ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
+    let changed = context.previewer.changed_files();
+    let Some(first) = changed.first() else { return };
+    card(ui, |ui| {
+        let others = changed.len() - 1;
+        let more = if others > 0 { format!(" and {others} more") } else { String::new() };
+        let name = first.file_name().unwrap_or(first.as_os_str()).to_string_lossy();
+        let words = format!("{name}{more} changed on disk");
+        let text = RichText::new(words).color(theme::level_colour(Level::Warning));
+        ui.label(text).on_hover_text(first.display().to_string());
+        if ui.button("Reload").clicked() {
+            actions.push(Action::Reload);
+        }
+        if ui.button("Not now").clicked() {
+            actions.push(Action::IgnoreChanges);
         }
     });
 }
 
-fn changed_files(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
-    let changed = context.previewer.changed_files();
-    let Some(first) = changed.first() else { return };
-    dialog(ui, "Changed on disk").show(ui.ctx(), |ui| {
-        let others = changed.len() - 1;
-        let more = if others > 0 { format!(" and {others} more") } else { String::new() };
-        ui.label(format!("{}{more}", first.display()));
-        ui.horizontal(|ui| {
-            if ui.button("Reload").clicked() {
-                actions.push(Action::Reload);
-            }
-            if ui.button("Not now").clicked() {
-                actions.push(Action::IgnoreChanges);
-            }
-        });
+fn export(ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
+    let Some(progress) = context.exports.progress() else { return };
+    if progress.state != ExportState::Running {
+        return;
+    }
+    card(ui, |ui| {
+        ui.label("exporting");
+        let share = progress.done as f32 / progress.total.max(1) as f32;
+        let text = format!("{} of {}", progress.done, progress.total);
+        ui.add(egui::ProgressBar::new(share).desired_width(200.0).text(text));
+        if ui.button("Cancel").clicked() {
+            actions.push(Action::CancelExport);
+        }
     });
 }
 
@@ -62,55 +106,49 @@ fn unsaved(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
     if context.previewer.state().unsaved.is_none() {
         return;
     }
-    dialog(ui, "Changed settings").show(ui.ctx(), |ui| {
-        ui.label("The changed settings are not saved.");
-        ui.horizontal(|ui| {
-            if ui.button("Save first").clicked() {
-                actions.extend([Action::GiveUpEdits { yes: false }, Action::Save]);
-            }
-            if ui.button("Give them up").clicked() {
-                actions.push(Action::GiveUpEdits { yes: true });
-            }
-            if ui.button("Go back").clicked() {
-                actions.push(Action::GiveUpEdits { yes: false });
-            }
-        });
+    let is_left = question(ui, "unsaved", "The changed settings are not saved.", |ui| {
+        if ui.button("Save first").clicked() {
+            actions.extend([Action::GiveUpEdits { yes: false }, Action::Save]);
+        }
+        if ui.button("Give them up").clicked() {
+            actions.push(Action::GiveUpEdits { yes: true });
+        }
+        ui.button("Go back").clicked()
     });
+    if is_left {
+        actions.push(Action::GiveUpEdits { yes: false });
+    }
 }
 
 /// Before files are written over.
 fn overwriting(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
     let Some(asked) = &context.previewer.state().overwriting else { return };
-    dialog(ui, "Write over?").show(ui.ctx(), |ui| {
-        ui.label(&asked.what);
-        ui.horizontal(|ui| {
-            for (name, yes) in [("Write over", true), ("Go back", false)] {
-                if ui.button(name).clicked() {
-                    actions.push(Action::WriteOver { yes });
-                }
-            }
-        });
-    });
-}
-
-fn export(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
-    let Some(progress) = context.exports.progress() else { return };
-    if progress.state != ExportState::Running {
-        return;
-    }
-    dialog(ui, "Exporting").show(ui.ctx(), |ui| {
-        let share = progress.done as f32 / progress.total.max(1) as f32;
-        let text = format!("{} of {}", progress.done, progress.total);
-        ui.add(egui::ProgressBar::new(share).desired_width(260.0).text(text));
-        if ui.button("Cancel").clicked() {
-            actions.push(Action::CancelExport);
+    let is_left = question(ui, "overwriting", &asked.what, |ui| {
+        if ui.button("Write over").clicked() {
+            actions.push(Action::WriteOver { yes: true });
         }
+        ui.button("Go back").clicked()
     });
+    if is_left {
+        actions.push(Action::WriteOver { yes: false });
+    }
 }
 
-/// A small window over the viewports.
-fn dialog(ui: &Ui, title: &'static str) -> egui::Window<'static> {
-    egui::Window::new(title).constrain_to(ui.max_rect()).collapsible(false).resizable(false)
+/// In the middle, before anything else can be done. True if the user goes back: by the button, by Escape
+/// or by a click elsewhere.
+fn question(
+    ui: &Ui,
+    name: &'static str,
+    words: &str,
+    answers: impl FnOnce(&mut Ui) -> bool,
+) -> bool {
+    let shown = egui::Modal::new(egui::Id::unique(name)).show(ui.ctx(), |ui| {
+        ui.set_max_width(WIDTH_MAX);
+        ui.label(words);
+        ui.add_space(6.0);
+        ui.horizontal(answers).inner
+    });
+    shown.inner || shown.should_close()
 }
 
 /// What the colours stand for, in the viewports' corner.

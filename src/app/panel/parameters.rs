@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::Context;
 use crate::app::theme;
 use crate::preview::{
-    Action, Edits, Off, Parameter, ParameterKind, Plan, Scale, parameters, value,
+    Action, Off, Parameter, ParameterKind, Plan, Previewer, Scale, parameters, value,
 };
 
 /// Indentation, and a slider's number with its unit (points).
@@ -36,8 +36,7 @@ impl ParametersPanel {
         };
         self.list(plan);
         let Some((_, listed)) = &self.listed else { return };
-        let edits = &context.previewer.state().version.edits;
-        let has_edits = !edits.is_empty();
+        let has_edits = context.previewer.has_unsaved_edits();
         ui.horizontal(|ui| {
             ui.strong("Settings");
             let reset = ui.add_enabled(has_edits, egui::Button::new("Reset all").small());
@@ -51,7 +50,7 @@ impl ParametersPanel {
         while let Some(first) = rest.first() {
             let count = rest.iter().take_while(|p| p.group == first.group).count();
             let (group, others) = rest.split_at(count);
-            let is_edited = group.iter().any(|p| edits.get(&p.path).is_some());
+            let is_edited = group.iter().any(|p| context.previewer.is_unsaved(&p.path));
             let mut title = RichText::new(&first.group);
             if is_edited {
                 title = title.color(theme::ACCENT);
@@ -61,7 +60,7 @@ impl ParametersPanel {
                 .default_open(first.group == "View")
                 .show(ui, |ui| {
                     for parameter in group {
-                        row(ui, parameter, plan, edits, &mut self.dragged, actions);
+                        row(ui, parameter, context.previewer, plan, &mut self.dragged, actions);
                     }
                 });
             rest = others;
@@ -80,15 +79,16 @@ impl ParametersPanel {
 fn row(
     ui: &mut Ui,
     parameter: &Parameter,
+    previewer: &Previewer,
     plan: &Plan,
-    edits: &Edits,
     dragged: &mut Option<(String, Value)>,
     actions: &mut Vec<Action>,
 ) {
+    let edits = &previewer.state().version.edits;
     let Some(in_force) = value(&plan.requested.written, edits, &parameter.path) else { return };
     let held = dragged.as_ref().filter(|(path, _)| *path == parameter.path);
     let mut now = held.map_or_else(|| in_force.clone(), |(_, value)| value.clone());
-    let is_edited = edits.get(&parameter.path).is_some();
+    let is_edited = previewer.is_unsaved(&parameter.path);
     let label = ui.horizontal_wrapped(|ui| {
         let mut label = RichText::new(parameter.label);
         if is_edited {

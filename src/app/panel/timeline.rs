@@ -5,7 +5,7 @@ use egui::{Color32, Id, Rect, Response, Sense, Stroke, StrokeKind, Ui, pos2, vec
 use super::Context;
 use crate::app::theme;
 use crate::app::viewport::short;
-use crate::preview::{Action, Direction, FrameStatus, Previewer, Scenery, Timeline};
+use crate::preview::{Action, Direction, FrameStatus, Level, Previewer, Scenery, Timeline};
 
 /// Of the panel (points).
 pub const HEIGHT: f32 = 78.0;
@@ -260,14 +260,15 @@ fn transport(ui: &mut Ui, context: &Context<'_>, scenery: &Scenery, actions: &mu
     let [now, first, last] =
         [playback.current, playback.first, playback.last].map(|frame| scenery.shown(frame));
     ui.label(format!("{now}   [{first} - {last}]   {} fps", scenery.fps));
+    working(ui, context, scenery);
     legend(ui);
-    progress(ui, context, scenery);
+    memory(ui, context);
 }
 
-/// Where there is room for it.
+/// Where there is room for it; else the bars' own tooltips say it.
 fn legend(ui: &mut Ui) {
-    /// With what is being done beside it (points).
-    const WIDTH: f32 = 420.0;
+    /// With the memory beside it (points).
+    const WIDTH: f32 = 400.0;
     if ui.available_width() < WIDTH {
         return;
     }
@@ -285,16 +286,40 @@ fn legend(ui: &mut Ui) {
     }
 }
 
-/// What is being done, and how much of it is left.
-fn progress(ui: &mut Ui, context: &Context<'_>, scenery: &Scenery) {
+/// What is being done.
+fn working(ui: &mut Ui, context: &Context<'_>, scenery: &Scenery) {
+    /// Kept free, so that what is beside it stays where it is (points).
+    const WIDTH: f32 = 120.0;
+    /// A frame in work for longer than this says for how long (s).
+    const WORTH_SAYING: f64 = 3.0;
     let previewer = context.previewer;
-    if previewer.is_opening() {
-        ui.label("reading the shot ...");
-    } else if let Some(frame) = previewer.in_work() {
-        ui.label(format!("simulating {}", scenery.shown(frame)));
+    ui.scope(|ui| {
+        ui.set_min_width(WIDTH.min(ui.available_width()));
+        if previewer.is_opening() {
+            ui.label("reading the shot ...");
+        } else if let Some(frame) = previewer.in_work() {
+            let mut words = format!("simulating {}", scenery.shown(frame));
+            let seconds = previewer.seconds_in_work();
+            if seconds > WORTH_SAYING {
+                words += &format!(", {seconds:.0} s");
+            }
+            ui.label(words);
+        } else if let Some(frame) = previewer.failed_frame() {
+            let words = format!("stopped before {}", scenery.shown(frame));
+            ui.colored_label(theme::level_colour(Level::Error), words);
+        }
+    });
+}
+
+/// Where there is room for it.
+fn memory(ui: &mut Ui, context: &Context<'_>) {
+    /// (points).
+    const WIDTH: f32 = 100.0;
+    if ui.available_width() < WIDTH {
+        return;
     }
-    let used = previewer.store().used() >> 20;
-    let budget = previewer.store().budget() >> 20;
-    ui.label(egui::RichText::new(format!("{used} of {budget} MB")).small().color(theme::FAINT))
+    let store = context.previewer.store();
+    let words = format!("{} of {} MB", store.used() >> 20, store.budget() >> 20);
+    ui.label(egui::RichText::new(words).small().color(theme::FAINT))
         .on_hover_text("memory that frames take; those beyond it are read from disk");
 }

@@ -4,7 +4,7 @@ use egui::accesskit::Role;
 
 use super::seat::Seat;
 use crate::preview::Action;
-use crate::shot::CameraPath;
+use crate::shot::{CameraPath, Lens};
 
 fn path(seat: &Seat) -> CameraPath {
     (**seat.previewer().scenery().unwrap().camera.as_ref().unwrap()).clone()
@@ -33,24 +33,36 @@ fn a_key_is_added_made_a_cut_and_deleted() {
 }
 
 #[test]
-fn a_lens_changes_at_a_key_or_for_the_whole_path() {
+fn a_lens_changes_for_the_whole_path_or_at_a_frame_which_gets_a_key() {
     let mut seat = Seat::take();
-    let lens = |seat: &Seat| [0.0, 8.0].map(|frame| path(seat).lens(frame));
+    let lens = |seat: &Seat| [0.0, 6.0, 8.0].map(|frame| path(seat).lens(frame));
+    let set = |seat: &mut Seat, degrees| {
+        seat.node(Role::SpinButton, "field of view").set_value_accesskit(degrees);
+        seat.until_planned();
+    };
     let before = lens(&seat);
     seat.act(Action::GoTo { frame: 8 });
-    assert!(seat.says("at this key"));
-    seat.node(Role::SpinButton, "field of view").set_value_accesskit(40.0);
-    seat.until_planned();
-    let at_key = lens(&seat);
-    assert_eq!(at_key[0], before[0]);
-    assert_ne!(at_key[1], before[1]);
-    seat.act(Action::GoTo { frame: 2 });
-    assert!(seat.says("whole path"));
-    seat.node(Role::SpinButton, "field of view").set_value_accesskit(30.0);
-    seat.until_planned();
+    set(&mut seat, 40.0);
     let whole = lens(&seat);
-    assert_ne!(whole[0], before[0]);
-    assert_eq!(whole[0], whole[1]);
+    assert!(whole[0] != before[0] && whole == [whole[0]; 3]);
+    seat.click("at this frame");
+    set(&mut seat, 30.0);
+    let at_key = lens(&seat);
+    assert_eq!(at_key[0], whole[0]);
+    assert_ne!(at_key[2], whole[2]);
+    // Between keys the lens that is in force there is shown, not that of a key.
+    seat.act(Action::GoTo { frame: 6 });
+    let shown = |seat: &Seat| seat.node(Role::SpinButton, "field of view").value().unwrap();
+    let Lens::FieldOfView { fov_y } = at_key[1] else { panic!("{at_key:?}") };
+    assert_eq!(shown(&seat), format!("{:.1} deg", fov_y.to_degrees()));
+    set(&mut seat, 50.0);
+    assert_eq!(path(&seat).key_frames(), [0.0, 4.0, 6.0, 8.0, 12.0]);
+    assert_eq!([0, 2].map(|at| lens(&seat)[at]), [at_key[0], at_key[2]]);
+    assert_eq!(shown(&seat), "50.0 deg");
+    seat.click("whole path");
+    set(&mut seat, 25.0);
+    let again = lens(&seat);
+    assert_eq!(again, [again[0]; 3]);
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! The costs' panel.
 
 use super::seat::Seat;
-use crate::preview::stage::LAST;
+use crate::preview::stage::{LAST, windy};
+use crate::preview::{Action, FrameStatus};
 
 #[test]
 fn costs_are_summed_up_and_compared_with_the_adaptive_run() {
@@ -28,4 +29,18 @@ fn nothing_is_summed_up_before_there_is_a_frame() {
     for quantity in ["seconds a frame", "seconds in all", "stages", "faces"] {
         seat.click(quantity);
     }
+}
+
+#[test]
+fn frames_of_other_settings_are_left_out_of_the_sums() {
+    let mut seat = Seat::take_simulated();
+    seat.act(Action::Simulate { on: false });
+    seat.act(Action::GoTo { frame: 6 });
+    seat.act(windy(3.0));
+    seat.until_planned();
+    assert!(seat.mentions(&format!("no frame of these settings yet ({} stale", LAST + 1)));
+    seat.act(Action::Simulate { on: true });
+    seat.until("mixed frames", |p| p.timeline().status(LAST) == FrameStatus::Mixed);
+    assert!(seat.mentions(&format!("{} frames, ", LAST - 6)));
+    assert!(seat.mentions("(7 stale left out)"));
 }

@@ -70,7 +70,7 @@ fn settings_fit_into_a_narrow_panel() {
 #[test]
 fn nothing_in_the_bar_jumps_when_there_is_an_a_or_another_reach() {
     let mut seat = Seat::take_simulated();
-    let names = ["Open", "Re-run", "Undo", "Keep as A", "A | B", "Swap", "Settings", "Help"];
+    let names = ["File", "Re-run", "Undo", "Keep as A", "A | B", "Swap", "Settings", "Help"];
     let places = |seat: &Seat| names.map(|name| seat.node(Role::Button, name).rect());
     let before = places(&seat);
     let is_on_one_line = |a: &Rect| (a.center().y - before[0].center().y).abs() < 1.0;

@@ -24,6 +24,8 @@ const MARGIN: f32 = 8.0;
 pub struct Seat {
     desk: Harness<'static, Desk>,
     began: Instant,
+    /// More than has really passed (s).
+    passed: f64,
     /// What is open lies in it.
     pub stage: Stage,
 }
@@ -76,7 +78,7 @@ impl Seat {
             .with_max_steps(PASSES_MAX)
             .with_context_setup(theme::dress)
             .build_ui_state(|ui, desk: &mut Desk| desk.show(ui), desk);
-        let mut seat = Self { desk, began: Instant::now(), stage };
+        let mut seat = Self { desk, began: Instant::now(), passed: 0.0, stage };
         seat.until("the shot", |p| p.scenery().is_some() && !p.is_opening());
         seat
     }
@@ -98,9 +100,20 @@ impl Seat {
         self.previewer().state().playback.current
     }
 
+    /// Lets time go by (s).
+    pub fn pass(&mut self, seconds: f64) {
+        self.passed += seconds;
+        self.settle();
+        self.settle();
+    }
+
+    fn now(&self) -> f64 {
+        self.began.elapsed().as_secs_f64() + self.passed
+    }
+
     /// Does what was asked for, and shows it.
     pub fn settle(&mut self) {
-        let now = self.began.elapsed().as_secs_f64();
+        let now = self.now();
         loop {
             self.desk.run();
             let had_actions = self.desk.state().has_actions();
@@ -145,7 +158,8 @@ impl Seat {
 
     pub fn act(&mut self, action: Action) {
         self.desk.state_mut().act(action);
-        self.desk.state_mut().advance(self.began.elapsed().as_secs_f64());
+        let now = self.now();
+        self.desk.state_mut().advance(now);
         self.settle();
     }
 

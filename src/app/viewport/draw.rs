@@ -5,12 +5,12 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{
-    CachedList, Drawn, Eye, FoundWitness, Pane, Ranges, Same, Side, Viewports, index, shot_view,
+    CachedList, Drawn, Eye, FoundWitness, Pane, Same, Side, Viewports, index, shot_view,
 };
 use crate::app::export::seen_in_shape;
 use crate::preview::{ColourMode, EyeAndTarget, ImagePlane, Look, Previewer, Scenery};
 use crate::render::{
-    Bounds, CameraTrail, ColourBy, CrossingMarks, DrawList, Gpu, LogRange, PictureOptions,
+    Bounds, CameraTrail, ColourBy, CrossingMarks, DrawList, Gpu, PictureOptions,
     RenderError, Renderer, STRAIN_LIMIT, ShotCamera, TargetTexture, UiPainter, WITNESS_FOV_Y,
     WitnessSubject, witness_view,
 };
@@ -26,7 +26,7 @@ impl Viewports {
         let Some(scenery) = previewer.scenery().cloned() else { return Vec::new() };
         // One legend is for both sides: their colours wait until both have been seen.
         let frames = [Side::B, Side::A].map(|side| self.frame_to_draw(side, previewer));
-        self.ranges.see(frames.iter().flatten());
+        self.ranges.see(frames.iter().flatten(), &scenery);
         let mut wanted = Vec::new();
         for (eye, side) in [
             (Eye::Shot, Side::B),
@@ -125,10 +125,10 @@ impl Viewports {
     /// What the colours stand for now.
     pub fn colour_by(&self, look: &Look, scenery: &Scenery) -> ColourBy {
         match look.colour {
-            ColourMode::ViewFactor => view_factor(scenery, self.ranges.least_factor),
-            ColourMode::EdgeSize => self.ranges.values.edge_size(),
+            ColourMode::ViewFactor => self.ranges.view_factor(scenery),
+            ColourMode::EdgeSize => self.ranges.edge_size(),
             ColourMode::Strain => ColourBy::Strain { limit: STRAIN_LIMIT },
-            ColourMode::Velocity => self.ranges.values.speed(),
+            ColourMode::Velocity => self.ranges.speed(),
             ColourMode::Plain => ColourBy::Plain,
         }
     }
@@ -262,8 +262,7 @@ impl Viewports {
 
     /// Finds the witness's place from the first cloth that is there; it stays while the shot is open.
     fn find_witness(&mut self, frame: &Frame, previewer: &Previewer, scenery: &Scenery) {
-        let found = self.found_witness.as_ref().is_some_and(|found| found.name == scenery.name);
-        if found || previewer.shown().is_none() {
+        if self.found_witness.is_some() || previewer.shown().is_none() {
             return;
         }
         let cloth = Bounds::of_cloth(frame);
@@ -275,7 +274,6 @@ impl Viewports {
         let view = witness_view(&subject, size);
         let distance = view.eye.distance(subject.cloth.centre());
         self.found_witness = Some(FoundWitness {
-            name: scenery.name.clone(),
             place: EyeAndTarget::of_view(&view, distance),
             ground: subject.cloth.min.z,
         });
@@ -302,23 +300,6 @@ impl Pane {
                 self.texture = Some((texture, id));
             }
         }
-    }
-}
-
-impl Ranges {
-    /// Takes in the frames that are shown together; while there are none, all stays as it was.
-    fn see<'f>(&mut self, frames: impl Iterator<Item = &'f Arc<Frame>>) {
-        let shown: Vec<_> = frames.cloned().map(Same).collect();
-        if shown.is_empty() || shown == self.seen {
-            return;
-        }
-        for Same(frame) in shown.iter().filter(|frame| !self.seen.contains(frame)) {
-            self.values.see(frame);
-        }
-        let factors = shown.iter().map(|Same(frame)| frame.report.view_factor_min);
-        // 0 is of frames that tell none.
-        self.least_factor = factors.filter(|&least| least > 0.0).fold(1.0, f64::min);
-        self.seen = shown;
     }
 }
 
@@ -359,43 +340,4 @@ pub(super) fn place_of(view: &View, previewer: &Previewer) -> EyeAndTarget {
     let centre = previewer.shown().map(|shown| Bounds::of_cloth(&shown.frame).centre());
     let distance = centre.map_or(1.0, |centre| -view.point_in_camera(centre).z);
     EyeAndTarget::of_view(view, if distance > view.near { distance } else { 1.0 })
-}
-
-/// From the settings' range to what a frame has: one that other settings made may lie beyond it.
-fn view_factor(scenery: &Scenery, least: f64) -> ColourBy {
-    match ColourBy::view_factor(&scenery.view_settings) {
-        ColourBy::ViewFactor(range) if least > 0.0 && least < range.end => {
-            ColourBy::ViewFactor(LogRange { end: least, ..range })
-        }
-        by => by,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::render::fixture::{frame, square};
-
-    fn seen(number: u32, view_factor_min: f64) -> Arc<Frame> {
-        let mut frame = Frame { number, ..frame([square(0.0, 0.1)]) };
-        frame.report.view_factor_min = view_factor_min;
-        Arc::new(frame)
-    }
-
-    #[test]
-    fn frames_that_are_shown_together_have_the_range_of_both_and_alone_their_own() {
-        let (a, b, untold) = (seen(1, 0.02), seen(1, 0.3), seen(1, 0.0));
-        let mut ranges = Ranges::default();
-        for (shown, least) in [
-            (vec![&b, &a], 0.02),
-            (vec![&a, &b], 0.02),
-            (vec![], 0.02),
-            (vec![&b], 0.3),
-            (vec![&b, &untold], 0.3),
-            (vec![&untold], 1.0),
-        ] {
-            ranges.see(shown.iter().copied());
-            assert_eq!(ranges.least_factor, least, "{}", shown.len());
-        }
-    }
 }

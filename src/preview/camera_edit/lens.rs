@@ -13,6 +13,16 @@ pub enum LensValue {
     FocalMm(f64),
 }
 
+impl LensValue {
+    /// Of a camera with a film back its focal length, of any other its angle.
+    pub fn of(lens: Lens) -> Self {
+        match lens {
+            Lens::FieldOfView { fov_y } => Self::FovYDeg(fov_y.to_degrees()),
+            Lens::FilmBack { focal_mm, .. } => Self::FocalMm(focal_mm),
+        }
+    }
+}
+
 /// What a key's own words and the camera's come to.
 #[derive(Clone, Copy, PartialEq)]
 enum Given {
@@ -49,6 +59,12 @@ impl CameraEdit {
             Given::Angle { fov_y_deg } => LensValue::FovYDeg(fov_y_deg),
             Given::FilmBack { focal_mm, .. } => LensValue::FocalMm(focal_mm),
         })
+    }
+
+    /// Whether keys differ in their lens.
+    pub fn zooms(&self) -> bool {
+        let lens = |key: &KeyFile| given(&self.file, key).ok();
+        self.keys().windows(2).any(|pair| lens(&pair[0]) != lens(&pair[1]))
     }
 
     fn set_lens_of(&mut self, index: usize, value: LensValue) -> Result<(), CameraEditError> {

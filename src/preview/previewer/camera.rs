@@ -20,6 +20,7 @@ const TARGET_DISTANCE: f64 = 2.0;
 impl Previewer {
     pub(super) fn act_on_camera(&mut self, action: Action) {
         match action {
+            Action::UnlockCamera { on: true } if self.open.plan.is_none() => self.say_finished(),
             Action::UnlockCamera { on } => {
                 self.state.camera_unlocked = on;
                 self.state.dragged_camera = None;
@@ -41,13 +42,15 @@ impl Previewer {
         }
     }
 
+    fn say_finished(&mut self) {
+        self.state.say(Level::Note, "this is a finished run: open its shot to move the camera");
+    }
+
     /// Puts an edited camera into force, or says why it cannot be so.
     fn edit_camera_of(&mut self, edit: impl FnOnce(&Plan) -> Result<CameraEdit, CameraEditError>) {
         let Some(plan) = self.open.plan.clone() else {
             self.state.dragged_camera = None;
-            let text = "this is a finished run: open its shot to move the camera";
-            self.state.say(Level::Note, text);
-            return;
+            return self.say_finished();
         };
         match edit(&plan) {
             Ok(camera) => {
@@ -60,6 +63,7 @@ impl Previewer {
             Err(error) => {
                 self.state.dragged_camera = None;
                 self.state.say(Level::Warning, error.to_string());
+                self.planning.refusals.push(error.to_string());
             }
         }
     }
@@ -72,7 +76,6 @@ fn edited(
     dragged: Option<EyeAndTarget>,
 ) -> Result<CameraEdit, CameraEditError> {
     let camera = CameraEdit::of_shot(plan.resolved(), &plan.requested.scene)?;
-    let scope = |frame: Option<f64>| frame.map_or(LensScope::WholePath, LensScope::Key);
     match *action {
         Action::SetKey => {
             let frame = f64::from(current);
@@ -88,12 +91,27 @@ fn edited(
             camera.set_cut(frame, if cut { Cut::Yes } else { Cut::No })
         }
         Action::SetFocalLength { frame, focal_mm } => {
-            camera.set_lens(scope(frame), LensValue::FocalMm(focal_mm))
+            with_lens(&camera, frame, LensValue::FocalMm(focal_mm))
         }
         Action::SetFieldOfView { frame, degrees } => {
-            camera.set_lens(scope(frame), LensValue::FovYDeg(degrees))
+            with_lens(&camera, frame, LensValue::FovYDeg(degrees))
         }
         ref other => unreachable!("{other:?} is about other things"),
+    }
+}
+
+/// At a frame without a key there is one then.
+fn with_lens(
+    camera: &CameraEdit,
+    frame: Option<f64>,
+    lens: LensValue,
+) -> Result<CameraEdit, CameraEditError> {
+    match frame {
+        None => camera.set_lens(LensScope::WholePath, lens),
+        Some(frame) if camera.keys().iter().any(|key| key.frame == frame) => {
+            camera.set_lens(LensScope::Key(frame), lens)
+        }
+        Some(frame) => camera.set_key(frame, placement(camera, frame, None), Some(lens)),
     }
 }
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::Previewer;
-use super::parts::Occasion;
+use super::parts::{Occasion, Saved};
 use crate::output::{PendingFile, folder_of};
 use crate::own_shot::own_shot_parts;
 use crate::preview::action::Action;
@@ -22,9 +22,7 @@ impl Previewer {
         match action {
             Action::Open { path } => self.open(Some(path)),
             Action::OpenOwn => self.open(None),
-            Action::Reload => {
-                self.ask(self.open.source.clone(), Occasion::Change);
-            }
+            Action::Reload => self.reload(),
             Action::IgnoreChanges => self.watched.ignored.append(&mut self.watched.changed),
             Action::Save => self.save(None),
             Action::SaveAs { path, overwrite } => {
@@ -53,6 +51,7 @@ impl Previewer {
             Some(path) if path.is_dir() => Source::Run(path),
             shot => Source::Shot(Request {
                 shot,
+                text: None,
                 camera: None,
                 sets: Vec::new(),
                 fps: None,
@@ -63,56 +62,78 @@ impl Previewer {
         self.open_with(source);
     }
 
-    /// Into the shot's own file, or into another, which is then the one that is open.
+    /// Reads all files again. What was changed since the shot was saved stays changed.
+    fn reload(&mut self) {
+        let (source, saved) = (self.open.source.clone(), self.open.saved.as_ref());
+        let Some(saved) = saved else { return self.ask(source, Occasion::Change) };
+        let edits = self.state.version.edits.beyond(&saved.edits);
+        self.state.version = Version { edits, ..self.state.version.clone() };
+        self.ask(source, Occasion::Reading);
+    }
+
+    /// Into the shot's own file, or into another, which is then the one that is open. All that could be
+    /// undone before can be still.
     fn save(&mut self, to: Option<PathBuf>) {
         match self.saved(to) {
-            Ok((path, request)) => {
-                self.state.say(Level::Note, format!("saved {:?}", path.display()));
-                // What is in the file now is no edit any more; the frames are the same.
-                self.state.version =
-                    Version { edits: Edits::default(), ..self.state.version.clone() };
-                self.state.history = Default::default();
-                // Its settings were those over the file as it was.
-                (self.state.a, self.state.wipe) = (None, None);
+            Ok((request, saved)) => {
+                self.state.say(Level::Note, format!("saved {:?}", request.path().display()));
+                self.open.saved = Some(saved);
                 self.ask(Source::Shot(request), Occasion::Change);
             }
             Err(why) => self.state.say(Level::Error, why),
         }
     }
 
-    fn saved(&self, to: Option<PathBuf>) -> Result<(PathBuf, Request), String> {
+    /// Writes the file. Returns what is open then.
+    fn saved(&self, to: Option<PathBuf>) -> Result<(Request, Saved), String> {
         let Source::Shot(request) = &self.open.source else {
             return Err("a finished run has no settings to save".to_owned());
         };
-        let mut edits = with_overrides(request, self.open.plan.as_deref())?;
-        for (path, value) in self.state.version.edits.iter() {
-            edits.set(path, value.clone());
-        }
-        let from = request.shot.as_deref();
-        let (to, from) = match (to, from) {
-            (Some(to), Some(from)) => (to, from),
-            (None, Some(from)) => (from.to_owned(), from),
+        let edits = self.state.version.edits.clone();
+        let overrides = overrides(request, self.open.plan.as_deref())?;
+        let (to, text) = match (to, request.shot.as_deref()) {
             (Some(to), None) => {
-                write_own_shot(&to, &edits)?;
-                let request =
-                    Request { shot: Some(to.clone()), sets: Vec::new(), ..request.clone() };
-                return Ok((to, request));
+                write_files_of_own_shot(&to)?;
+                let (text, _) = own_shot_parts();
+                (to, edited(&String::from_utf8_lossy(text), &overrides)?)
             }
             (None, None) => {
                 return Err("the program's own shot is part of the program: Save as writes a copy"
                     .to_owned());
             }
+            (to, Some(from)) => {
+                let to = to.unwrap_or_else(|| from.to_owned());
+                let original = self.original(from, &to)?;
+                let text = text_for(&original, from, &to, &overrides)?;
+                (to, text)
+            }
         };
-        let text = shot_text(from, &to, &edits)?;
-        write_whole(&to, &text)?;
+        let written = edited(&text, &edits)?;
+        write_whole(&to, &written)?;
         let request =
-            Request { shot: Some(to.clone()), camera: None, sets: Vec::new(), ..request.clone() };
-        Ok((to, request))
+            Request { shot: Some(to), camera: None, sets: Vec::new(), ..request.clone() };
+        Ok((request, Saved { text: text.into(), written: written.into(), edits }))
+    }
+
+    /// What the open shot's file says without edits.
+    fn original(&self, from: &Path, to: &Path) -> Result<String, String> {
+        let read = || {
+            fs::read_to_string(from)
+                .map_err(|error| format!("cannot read {:?}: {error}", from.display()))
+        };
+        let Some(saved) = &self.open.saved else { return read() };
+        if self.is_open_shot(to) && read().is_ok_and(|text| *text != *saved.written) {
+            return Err(format!(
+                "{:?} has changed on disk since it was saved: Reload it first, or Save as another",
+                from.display()
+            ));
+        }
+        Ok(saved.text.to_string())
     }
 }
 
-/// What the command line changed about the shot is saved with it.
-fn with_overrides(request: &Request, plan: Option<&Plan>) -> Result<Edits, String> {
+/// What the command line changed about the shot, which is saved with it.
+fn overrides(request: &Request, plan: Option<&Plan>) -> Result<Edits, String> {
     let mut edits = Edits::default();
     for set in &request.sets {
         let (path, value) = set.split_once('=').ok_or_else(|| format!("{set:?} is no override"))?;
@@ -129,17 +150,15 @@ fn with_overrides(request: &Request, plan: Option<&Plan>) -> Result<Edits, Strin
 }
 
 /// The text of a shot with edits, for a file that may lie elsewhere than the one it is read from.
-fn shot_text(from: &Path, to: &Path, edits: &Edits) -> Result<String, String> {
-    let original = fs::read_to_string(from)
-        .map_err(|error| format!("cannot read {:?}: {error}", from.display()))?;
+fn text_for(original: &str, from: &Path, to: &Path, edits: &Edits) -> Result<String, String> {
     let folder = |path: &Path| {
         let folder = folder_of(path);
         fs::canonicalize(folder)
             .map_err(|error| format!("cannot write to {:?}: {error}", folder.display()))
     };
     let (from_folder, to_folder) = (folder(from)?, folder(to)?);
-    if is_native(&original) {
-        let text = saved_text(&original, edits).map_err(|error| error.to_string())?;
+    if is_native(original) {
+        let text = edited(original, edits)?;
         if from_folder == to_folder {
             return Ok(text);
         }
@@ -155,14 +174,15 @@ fn shot_text(from: &Path, to: &Path, edits: &Edits) -> Result<String, String> {
     wrapped_text(&seen_from(&to_folder, &scene), edits).map_err(|error| error.to_string())
 }
 
-/// A copy of the program's own shot with edits, and beside it the files that it names. Files of other
+fn edited(text: &str, edits: &Edits) -> Result<String, String> {
+    saved_text(text, edits).map_err(|error| error.to_string())
+}
+
+/// The files that a copy of the program's own shot names, beside where it is to be. Files of other
 /// content that are there already are not written over.
-fn write_own_shot(to: &Path, edits: &Edits) -> Result<(), String> {
-    let folder = folder_of(to);
-    let (text, files) = own_shot_parts();
-    let original = String::from_utf8_lossy(text);
-    let text = saved_text(&original, edits).map_err(|error| error.to_string())?;
-    for (name, contents) in files {
+fn write_files_of_own_shot(shot: &Path) -> Result<(), String> {
+    let folder = folder_of(shot);
+    for (name, contents) in own_shot_parts().1 {
         let path = folder.join(name);
         let cannot = |error| format!("cannot write {:?}: {error}", path.display());
         match fs::read(&path) {
@@ -173,7 +193,7 @@ fn write_own_shot(to: &Path, edits: &Edits) -> Result<(), String> {
         fs::create_dir_all(path.parent().unwrap_or(folder)).map_err(cannot)?;
         fs::write(&path, contents).map_err(cannot)?;
     }
-    write_whole(to, &text)
+    Ok(())
 }
 
 /// Whether a text is a native shot, not a scene to import.

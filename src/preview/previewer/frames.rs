@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Previewer;
-use super::parts::Work;
+use super::parts::{Failure, Frames, Work};
 use crate::preview::engine::{Job, JobId};
 use crate::preview::key::FrameKey;
 use crate::preview::message::Event;
@@ -33,10 +33,7 @@ impl Previewer {
             Event::Finished { .. } => {}
             Event::Failed { job, frame, why } if self.is_in_work(job) => {
                 self.making.job = None;
-                self.state.simulating = false;
-                let shown = self.open.scenery.as_ref().map_or(0, |s| s.shown(frame));
-                let text = format!("the simulation stopped before frame {shown}: {why}");
-                self.state.say(Level::Error, text);
+                self.note_failure(frame, &why);
             }
             Event::Failed { .. } => {}
             Event::Rival(event) => self.take_rival(*event),
@@ -61,7 +58,20 @@ impl Previewer {
                 &self.frames.store,
             );
         }
+        self.note_costs_at_hand();
         self.refresh_shown();
+    }
+
+    /// What frames in memory cost, they tell themselves.
+    pub(super) fn note_costs_at_hand(&mut self) {
+        let Frames { timeline, store, .. } = &mut self.frames;
+        for number in 0..timeline.len() as u32 {
+            let unknown = timeline.slot(number).filter(|slot| slot.cost.is_none());
+            let Some(key) = unknown.map(|slot| slot.key) else { continue };
+            if let Place::Memory(frame) = store.find(key) {
+                timeline.note_cost(key, Cost::of(&frame));
+            }
+        }
     }
 
     /// Sets the engine to work on the first frame that is wanted and not there.
@@ -70,7 +80,13 @@ impl Previewer {
             return;
         }
         let Some(plan) = self.open.plan.clone() else { return };
-        let Some((first, frames)) = self.frames.timeline.gap(&self.frames.store) else { return };
+        let gap = self.frames.timeline.gap(&self.frames.store);
+        let next = gap.as_ref().and_then(|(_, frames)| frames.first());
+        if self.making.failure.as_ref().is_some_and(|failure| Some(&failure.key) == next) {
+            return;
+        }
+        self.forget_failure();
+        let Some((first, frames)) = gap else { return };
         let start = match first.checked_sub(1) {
             None => None,
             Some(before) => match self.start_frame(before) {
@@ -83,6 +99,25 @@ impl Previewer {
         let keys = frames.clone();
         let job = Job { scene, settings: plan.settings(), start, frames };
         self.making.job = Some(Work { id: self.making.engine.begin(job), keys });
+    }
+
+    /// What cannot be simulated is not tried again until settings change or somebody asks.
+    fn note_failure(&mut self, frame: u32, why: &str) {
+        let shown = self.open.scenery.as_ref().map_or(0, |s| s.shown(frame));
+        let why = why.strip_prefix(&format!("frame {frame}: ")).unwrap_or(why);
+        let said = format!(
+            "frame {shown} cannot be simulated with these settings: {why}. Undo or change them, or \
+             Simulate (S) to try again"
+        );
+        self.state.say(Level::Error, said.clone());
+        self.making.failure =
+            self.frames.timeline.wanted(frame).map(|key| Failure { frame, key, said });
+    }
+
+    pub(super) fn forget_failure(&mut self) {
+        if let Some(failure) = self.making.failure.take() {
+            self.state.take_back(&failure.said);
+        }
     }
 
     fn is_in_work(&self, job: JobId) -> bool {
@@ -133,6 +168,7 @@ impl Previewer {
     pub(super) fn simulate(&mut self, on: bool) {
         self.state.simulating = on;
         if on {
+            self.forget_failure();
             self.pursue();
         } else {
             self.halt();
@@ -143,7 +179,7 @@ impl Previewer {
         self.making.simulated += 1;
         let shown = self.open.scenery.as_ref().map_or(0, |s| s.shown(frame.number));
         for warning in &frame.report.warnings {
-            self.state.say(Level::Warning, format!("frame {shown}: {warning}"));
+            self.warn_of_frame(shown, warning);
         }
         let hash = self.open.plan.as_ref().map_or("", |plan| plan.settings_hash()).to_owned();
         let (number, cost) = (frame.number, Cost::of(&frame));
@@ -161,9 +197,34 @@ impl Previewer {
         self.refresh_shown();
     }
 
+    /// The same of many frames is said once, of the last of them.
+    pub(super) fn warn_of_frame(&mut self, shown: i64, warning: &str) {
+        // Frames differ in how many, not in what.
+        let kind = warning.replace(|c: char| c.is_ascii_digit(), "");
+        let warned = &mut self.making.warned;
+        let before = match warned.get(&kind) {
+            Some((said, before)) if self.state.messages.iter().any(|m| m.text == *said) => {
+                self.state.take_back(said);
+                before + 1
+            }
+            _ => 0,
+        };
+        let mut said = format!("frame {shown}: {warning}");
+        if before > 0 {
+            said += &format!(" (and {before} frames before it likewise)");
+        }
+        self.state.say(Level::Warning, said.clone());
+        warned.insert(kind, (said, before));
+    }
+
     /// Into the store; what this pushes out and is nowhere else is gone.
     fn take_in(&mut self, key: FrameKey, frame: Arc<Frame>) {
         let lost = self.frames.store.insert(key, frame);
+        self.give_up(&lost);
+    }
+
+    /// Frames that are in neither memory nor disk any more.
+    fn give_up(&mut self, lost: &[FrameKey]) {
         if lost.is_empty() {
             return;
         }
@@ -236,8 +297,13 @@ impl Previewer {
     }
 
     pub(super) fn set_memory(&mut self, megabytes: u64) {
-        let lost = self.frames.store.set_budget(megabytes.max(1) << 20);
-        lost.iter().for_each(|&key| self.frames.timeline.forget(key));
+        self.set_budget(megabytes.max(1) << 20);
+    }
+
+    /// (bytes).
+    pub(super) fn set_budget(&mut self, bytes: u64) {
+        let lost = self.frames.store.set_budget(bytes);
+        self.give_up(&lost);
         self.refresh_shown();
     }
 }

@@ -12,7 +12,7 @@ mod rival;
 mod settings;
 mod time;
 
-use std::collections::{HashSet, VecDeque};
+use std::collections::{BTreeMap, HashSet, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
@@ -58,8 +58,10 @@ pub enum Effect {
     Scale(f32),
     /// Puts the cloth of the current frame into the witness's view.
     FrameCloth,
-    /// What is open has changed its name: for the window's title and the list of recent files.
+    /// Something else is open: for the window's title and the list of recent files.
     Opened(Source),
+    /// What is open has changed its name.
+    Renamed(Source),
     Quit,
 }
 
@@ -85,11 +87,18 @@ impl Previewer {
         let (outbox, events) = Outbox::new(start.wake);
         let mut previewer = Self {
             state: State { look: start.look, simulating: start.simulating, ..State::default() },
-            open: Open { source: start.source.clone(), scenery: None, plan: None, run: None },
+            open: Open {
+                source: start.source.clone(),
+                scenery: None,
+                plan: None,
+                run: None,
+                saved: None,
+            },
             planning: Planning {
                 planner: Planner::start(outbox.clone()),
                 awaited: None,
                 opening_failure: None,
+                refusals: Vec::new(),
                 proved: Version::default(),
                 deferred: VecDeque::new(),
             },
@@ -104,6 +113,10 @@ impl Previewer {
             making: Making {
                 engine: Engine::start("simulation", outbox.clone()),
                 job: None,
+                failure: None,
+                since: None,
+                seconds: 0.0,
+                warned: BTreeMap::new(),
                 simulated: 0,
             },
             rival: Rival {
@@ -131,7 +144,7 @@ impl Previewer {
             self.planning.deferred.push_back(Deferred { action, current, dragged_camera });
             return;
         }
-        if action.gives_up_edits() && !self.state.version.edits.is_empty() {
+        if action.gives_up_edits() && self.has_unsaved_edits() {
             self.state.unsaved = Some(action);
             return;
         }
@@ -194,22 +207,49 @@ impl Previewer {
             | Action::Save
             | Action::SaveAs { .. } => self.act_on_files(action),
 
-            Action::SetLayout { layout } => self.state.look.layout = layout,
-            Action::SetColour { colour } => self.state.look.colour = colour,
-            Action::SetOverlay { overlay, on } => *self.state.look.overlay_mut(overlay) = on,
-            Action::SetPanel { panel, open } => *self.state.look.panel_mut(panel) = open,
+            Action::SetLayout { .. }
+            | Action::SetColour { .. }
+            | Action::SetOverlay { .. }
+            | Action::SetPanel { .. }
+            | Action::SetWitness { .. }
+            | Action::ResetWitness
+            | Action::FrameCloth
+            | Action::SetScale { .. } => self.act_on_looks(action),
+
+            Action::Simulate { on } => self.simulate(on),
+            Action::MeasureAdaptive { on } => self.measure_adaptive(on),
+            Action::SetMemory { megabytes } => self.set_memory(megabytes),
+            Action::Export { export } => self.effects.push(Effect::Export(export)),
+            Action::CancelExport => self.effects.push(Effect::CancelExport),
+            Action::Quit => self.effects.push(Effect::Quit),
+
+            Action::DismissMessage { .. }
+            | Action::WriteOver { .. }
+            | Action::GiveUpEdits { .. } => self.act_on_words(action),
+        }
+    }
+
+    /// What is shown, and how.
+    fn act_on_looks(&mut self, action: Action) {
+        let look = &mut self.state.look;
+        match action {
+            Action::SetLayout { layout } => look.layout = layout,
+            Action::SetColour { colour } => look.colour = colour,
+            Action::SetOverlay { overlay, on } => *look.overlay_mut(overlay) = on,
+            Action::SetPanel { panel, open } => *look.panel_mut(panel) = open,
             Action::SetWitness { eye, target } => {
                 self.state.witness = Some(EyeAndTarget { eye, target });
             }
             Action::ResetWitness => self.state.witness = None,
             Action::FrameCloth => self.effects.push(Effect::FrameCloth),
-
-            Action::Simulate { on } => self.simulate(on),
-            Action::MeasureAdaptive { on } => self.measure_adaptive(on),
-            Action::Export { export } => self.effects.push(Effect::Export(export)),
-            Action::CancelExport => self.effects.push(Effect::CancelExport),
-            Action::SetMemory { megabytes } => self.set_memory(megabytes),
             Action::SetScale { scale } => self.effects.push(Effect::Scale(scale)),
+            other => unreachable!("{other:?} is about other things"),
+        }
+    }
+
+    /// What has been said, and what has been asked.
+    fn act_on_words(&mut self, action: Action) {
+        match action {
             Action::DismissMessage { index } => {
                 if index < self.state.messages.len() {
                     self.state.messages.remove(index);
@@ -220,12 +260,12 @@ impl Previewer {
                     self.act(asked.action);
                 }
             }
-            Action::Quit => self.effects.push(Effect::Quit),
             Action::GiveUpEdits { yes } => {
                 if let Some(action) = self.state.unsaved.take().filter(|_| yes) {
                     self.carry_out(action);
                 }
             }
+            other => unreachable!("{other:?} is about other things"),
         }
     }
 
@@ -279,6 +319,16 @@ impl Previewer {
     pub fn in_work(&self) -> Option<u32> {
         self.making.job.as_ref()?;
         self.frames.timeline.first_gap(&self.frames.store)
+    }
+
+    /// How long that frame has been in work (s).
+    pub fn seconds_in_work(&self) -> f64 {
+        self.making.seconds
+    }
+
+    /// The frame that could not be simulated.
+    pub fn failed_frame(&self) -> Option<u32> {
+        self.making.failure.as_ref().map(|failure| failure.frame)
     }
 
     /// Whether something is being opened.

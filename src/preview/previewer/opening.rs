@@ -26,7 +26,8 @@ impl Previewer {
                 if awaited.occasion == Occasion::Opening {
                     self.planning.opening_failure = Some(why.clone());
                 }
-                self.state.say(Level::Error, why);
+                self.state.say(Level::Error, why.clone());
+                self.planning.refusals.push(why);
                 self.pursue();
             }
         }
@@ -35,10 +36,18 @@ impl Previewer {
 
     fn take_opened(&mut self, opened: Opened, awaited: Awaited) {
         let is_new = awaited.occasion == Occasion::Opening || self.open.scenery.is_none();
-        let is_renamed = is_new || self.open.source != awaited.source;
+        let is_renamed = self.open.source != awaited.source;
+        if awaited.occasion != Occasion::Change && self.open.saved.take().is_some() {
+            // Versions counted from the text before it was saved.
+            self.state.history = Default::default();
+            (self.state.a, self.state.wipe) = (None, None);
+        }
         self.open.source = awaited.source;
         self.planning.proved = self.state.version.clone();
         self.planning.opening_failure = None;
+        for why in std::mem::take(&mut self.planning.refusals) {
+            self.state.take_back(&why);
+        }
         self.watched.changed.clear();
         if !std::mem::take(&mut self.watched.ignored).is_empty() && !is_new {
             let text = "files that had changed on disk were read again with this change";
@@ -48,8 +57,11 @@ impl Previewer {
             Opened::Shot(plan) => self.follow(Arc::from(plan), is_new),
             Opened::Run(run) => self.show_run(run),
         }
-        if is_renamed {
-            self.effects.push(Effect::Opened(self.open.source.clone()));
+        let source = self.open.source.clone();
+        if is_new {
+            self.effects.push(Effect::Opened(source));
+        } else if is_renamed {
+            self.effects.push(Effect::Renamed(source));
         }
     }
 
@@ -67,6 +79,7 @@ impl Previewer {
         self.open.scenery = Some(Arc::new(scenery));
         self.open.plan = Some(plan);
         self.open.run = None;
+        self.compare_settings();
         self.refresh();
         self.end_stale_job();
         let missing =
@@ -85,6 +98,7 @@ impl Previewer {
         self.open.plan = None;
         self.open.run = Some(run);
         self.follow_rival();
+        self.note_costs_at_hand();
         self.refresh_shown();
         self.read_ahead();
     }
@@ -93,8 +107,8 @@ impl Previewer {
         self.halt();
         self.state.playback = Playback::of(last);
         self.state.history = Default::default();
-        self.state.a = None;
-        self.state.wipe = None;
+        (self.state.a, self.state.wipe) = (None, None);
+        self.showing.differences.clear();
         self.state.overwriting = None;
         self.state.witness = None;
         self.state.dragged_camera = None;
@@ -103,6 +117,8 @@ impl Previewer {
         self.showing.of_a = None;
         self.showing.played_from = None;
         self.frames.loading.clear();
+        self.making.warned.clear();
+        self.forget_failure();
     }
 }
 

@@ -1,11 +1,12 @@
 //! What a previewer consists of.
 
-use std::collections::{HashSet, VecDeque};
+use std::collections::{BTreeMap, HashSet, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+#[cfg(doc)]
+use super::Previewer;
 use super::time::Shown;
-use crate::preview::Plan;
 use crate::preview::action::Action;
 use crate::preview::engine::{Engine, JobId};
 use crate::preview::history::Version;
@@ -16,6 +17,7 @@ use crate::preview::planner::{Planner, Source};
 use crate::preview::scenery::Scenery;
 use crate::preview::store::FrameStore;
 use crate::preview::timeline::{Cost, Timeline};
+use crate::preview::{Difference, Edits, Plan};
 use crate::run::RunReader;
 use crate::sim::Frame;
 
@@ -28,6 +30,18 @@ pub(super) struct Open {
     pub plan: Option<Arc<Plan>>,
     /// What is open if it is a finished run.
     pub run: Option<Arc<RunReader>>,
+    /// What a shot was before it was saved, so that this can be undone.
+    pub saved: Option<Saved>,
+}
+
+/// A shot that has been saved since it was read. Versions go on counting from the text without their
+/// edits: so those of before stay what they were.
+pub(super) struct Saved {
+    /// Without edits; with what the command line changed.
+    pub text: Arc<str>,
+    /// As it was written, with its edits.
+    pub written: Arc<str>,
+    pub edits: Edits,
 }
 
 /// From settings to plans.
@@ -37,6 +51,8 @@ pub(super) struct Planning {
     pub awaited: Option<Awaited>,
     /// Why what was to be opened last could not be.
     pub opening_failure: Option<String>,
+    /// What was said about plans that could not be made, until one can.
+    pub refusals: Vec<String>,
     /// The version of the plan that is in force: what is returned to if another cannot be.
     pub proved: Version,
     /// What has to wait for a plan, and where the user was when asking for it.
@@ -55,8 +71,10 @@ pub(super) struct Awaited {
 pub(super) enum Occasion {
     /// Something else is opened.
     Opening,
-    /// What is open has been changed, read again or saved.
+    /// What is open has been changed or saved.
     Change,
+    /// The files of what is open are read again, whatever was saved.
+    Reading,
 }
 
 /// An action that builds upon the plan in force, asked for while another is awaited.
@@ -83,8 +101,23 @@ pub(super) struct Frames {
 pub(super) struct Making {
     pub engine: Engine,
     pub job: Option<Work>,
+    /// What could not be simulated: not tried again until settings change or somebody asks.
+    pub failure: Option<Failure>,
+    /// The frame in work, and since when (s, the clock of [`Previewer::tick`]).
+    pub since: Option<(u32, f64)>,
+    /// How long it has been in work (s).
+    pub seconds: f64,
+    /// Warnings of frames by kind: what was said last, and in how many frames before.
+    pub warned: BTreeMap<String, (String, u32)>,
     /// Counts the frames that were simulated.
     pub simulated: u64,
+}
+
+/// A frame that could not be simulated.
+pub(super) struct Failure {
+    pub frame: u32,
+    pub key: FrameKey,
+    pub said: String,
 }
 
 /// What the engine has been told to make.
@@ -109,6 +142,8 @@ pub(super) struct Showing {
     pub frame: Option<Shown>,
     /// What A has, and of which frame.
     pub of_a: Option<(u32, Arc<Frame>)>,
+    /// Settings in which A and B differ.
+    pub differences: Vec<Difference>,
     /// When playback began, and at which frame.
     pub played_from: Option<(f64, u32)>,
 }

@@ -2,21 +2,30 @@
 
 use std::sync::Arc;
 
+use serde_json::Value;
+
 use super::Previewer;
 use super::parts::{Awaited, Occasion};
-use crate::preview::Edits;
 use crate::preview::action::{Action, Reach};
 use crate::preview::history::Version;
 use crate::preview::plan::Anchor;
 use crate::preview::planner::Source;
 use crate::preview::state::{Level, Remembered};
+use crate::preview::{Difference, Edits, differences};
+use crate::request::Request;
 
 impl Previewer {
     pub(super) fn act_on_settings(&mut self, action: Action) {
         match action {
             Action::Set { path, value } => self.edit(|edits| edits.set(&path, value)),
-            Action::Reset { path } => self.edit(|edits| edits.reset(&path)),
-            Action::ResetAll => self.edit(|edits| *edits = Edits::default()),
+            Action::Reset { path } => match self.saved_edits().get(&path).cloned() {
+                Some(value) => self.edit(|edits| edits.set(&path, value)),
+                None => self.edit(|edits| edits.reset(&path)),
+            },
+            Action::ResetAll => {
+                let saved = self.saved_edits().clone();
+                self.edit(|edits| *edits = saved);
+            }
             Action::SetReach { reach } => self.state.reach = reach,
             Action::ReRun => {
                 self.change(Version { anchor: None, ..self.state.version.clone() });
@@ -32,7 +41,10 @@ impl Previewer {
                     self.enforce(after);
                 }
             }
-            Action::KeepAsA => self.keep_as_a(),
+            Action::KeepAsA => {
+                self.keep_as_a();
+                self.state.say(Level::Note, "kept as A: A | B compares what comes with it");
+            }
             Action::Compare { wipe } => {
                 self.state.wipe = wipe.map(|share| share.clamp(0.0, 1.0));
                 if self.state.a.is_none() && wipe.is_some() {
@@ -113,8 +125,63 @@ impl Previewer {
     }
 
     pub(super) fn ask(&mut self, source: Source, occasion: Occasion) {
-        let request = self.planning.planner.open(source.clone(), self.state.version.edits.clone());
+        let edits = self.state.version.edits.clone();
+        let (from, edits) = match (&source, &self.open.saved) {
+            (Source::Shot(request), Some(saved)) if occasion == Occasion::Change => {
+                match edits == saved.edits {
+                    // What is on disk says it all, and has the hash of that.
+                    true => (source.clone(), Edits::default()),
+                    false => {
+                        let text = Some(saved.text.clone());
+                        (Source::Shot(Request { text, ..request.clone() }), edits)
+                    }
+                }
+            }
+            _ => (source.clone(), edits),
+        };
+        let request = self.planning.planner.open(from, edits);
         self.planning.awaited = Some(Awaited { request, source, occasion });
+    }
+
+    /// The edits that are in the file already.
+    fn saved_edits(&self) -> &Edits {
+        static NONE: Edits = Edits::none();
+        let is_read = |awaited: &Awaited| awaited.occasion != Occasion::Change;
+        match &self.open.saved {
+            // What is being read counts from what it will be.
+            Some(saved) if !self.planning.awaited.as_ref().is_some_and(is_read) => &saved.edits,
+            _ => &NONE,
+        }
+    }
+
+    /// The edits that are not in the file: at a path, what it was changed to.
+    pub fn is_unsaved(&self, path: &str) -> bool {
+        self.state.version.edits.get(path) != self.saved_edits().get(path)
+    }
+
+    /// Whether there are edits that are not in the file.
+    pub fn has_unsaved_edits(&self) -> bool {
+        self.state.version.edits != *self.saved_edits()
+    }
+
+    /// All settings of what is open.
+    fn resolved(&self) -> Option<&Value> {
+        let of_run = || self.open.run.as_ref().map(|run| &run.info().settings);
+        self.open.plan.as_ref().map(|plan| plan.resolved()).or_else(of_run)
+    }
+
+    /// Finds in what A and B differ, after either has changed.
+    pub(super) fn compare_settings(&mut self) {
+        let found = match (&self.state.a, self.resolved()) {
+            (Some(a), Some(b)) => differences(&a.resolved, b),
+            _ => Vec::new(),
+        };
+        self.showing.differences = found;
+    }
+
+    /// The settings in which B, what is in force, differs from A; none without an A.
+    pub fn differences(&self) -> &[Difference] {
+        &self.showing.differences
     }
 
     fn keep_as_a(&mut self) {
@@ -125,7 +192,9 @@ impl Previewer {
             camera: scenery.and_then(|scenery| scenery.camera.clone()),
             anticipation: scenery.map_or(0.0, |scenery| scenery.anticipation()),
             settings_hash: scenery.map_or_else(String::new, |s| s.settings_hash.clone()),
+            resolved: Arc::new(self.resolved().cloned().unwrap_or_default()),
         });
+        self.compare_settings();
         self.showing.of_a = None;
         self.refresh_shown();
     }

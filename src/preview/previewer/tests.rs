@@ -140,6 +140,16 @@ fn without_a_disk_the_memory_budget_holds_and_the_simulation_halts() {
 }
 
 #[test]
+fn frames_that_less_memory_has_no_room_for_are_said_to_be_gone() {
+    let stage = Stage::set();
+    let mut p = stage.open_with(Source::Shot(stage.request()), true, None, 64 << 20);
+    p.until_done();
+    p.0.set_budget(20_000);
+    assert!(p.0.state.messages.last().unwrap().text.contains("do not fit"));
+    assert!(!p.0.state.simulating && p.statuses().contains('.'));
+}
+
+#[test]
 fn of_frames_that_are_gone_nothing_is_remembered() {
     let stage = Stage::set();
     let mut p = stage.open_with(Source::Shot(stage.request()), true, None, 20_000);
@@ -249,8 +259,77 @@ fn a_saved_shot_keeps_its_comments_and_its_frames() {
     p.until("the saved shot", |p| !p.is_opening());
     let text = fs::read_to_string(stage.shot()).unwrap();
     assert!(text.contains("// As short as can be.") && text.contains("2.5"), "{text}");
-    assert!(p.0.state.version.edits.is_empty());
+    assert!(!p.0.has_unsaved_edits() && !p.0.is_unsaved("air.velocity"));
     assert_eq!((p.0.timeline().keys(), p.0.simulated()), (keys, simulated));
+}
+
+#[test]
+fn what_was_done_before_a_shot_was_saved_can_be_undone_and_compared_after() {
+    let stage = Stage::set();
+    let mut p = stage.start(true);
+    p.until_done();
+    p.act(Action::KeepAsA);
+    let (keys, hash) = (p.0.timeline().keys(), p.0.scenery().unwrap().settings_hash.clone());
+    p.act(Action::SetReach { reach: Reach::FromStart });
+    p.act(windy(2.5));
+    p.until("a clean run", |p| !p.is_opening() && p.timeline().is_clean(0, LAST));
+    p.act(Action::Save);
+    p.until_opened();
+    let saved = fs::read_to_string(stage.shot()).unwrap();
+    // What a run of the saved file would carry.
+    let of_file = stage.request().load().unwrap().info.input_hash;
+    assert_eq!(p.0.scenery().unwrap().settings_hash, of_file);
+    p.act(Action::Undo);
+    p.until_opened();
+    assert!(p.0.has_unsaved_edits() && p.0.is_unsaved("air.velocity"));
+    assert_eq!(p.0.timeline().keys(), keys);
+    assert_eq!(p.0.scenery().unwrap().settings_hash, hash);
+    assert!(p.0.state.a.is_some());
+    // The file is as it was, to the byte.
+    p.act(Action::Save);
+    p.until_opened();
+    assert_eq!(fs::read_to_string(stage.shot()).unwrap(), SHOT);
+    p.act(Action::Redo);
+    p.until_opened();
+    p.act(Action::Save);
+    p.until_opened();
+    assert_eq!(fs::read_to_string(stage.shot()).unwrap(), saved);
+    assert!(!p.0.has_unsaved_edits());
+    // Back to what the file says is back to what was saved.
+    p.act(windy(4.0));
+    p.until_opened();
+    p.act(Action::Reset { path: "air.velocity".into() });
+    p.until_opened();
+    assert!(!p.0.has_unsaved_edits());
+    assert_eq!(p.0.state.version.edits.overrides(), ["air.velocity=[2.5,2.0,0.0]"]);
+}
+
+#[test]
+fn a_saved_shot_that_somebody_else_has_changed_is_not_written_over() {
+    let stage = Stage::set();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(windy(2.5));
+    p.act(Action::Save);
+    p.until_opened();
+    let theirs = fs::read_to_string(stage.shot()).unwrap();
+    let theirs = theirs.replace("\"nu_out\": 0.2", "\"nu_out\": 0.3");
+    fs::write(stage.shot(), &theirs).unwrap();
+    p.act(windy(4.0));
+    p.until_opened();
+    p.act(Action::Save);
+    let said = &p.0.state.messages.last().unwrap().text;
+    assert!(said.contains("has changed on disk"), "{said}");
+    assert_eq!(fs::read_to_string(stage.shot()).unwrap(), theirs);
+    p.act(Action::DismissMessage { index: p.0.state.messages.len() - 1 });
+    // Read again, the change since goes on to hold over what they wrote.
+    p.act(Action::Reload);
+    p.until_opened();
+    assert_eq!(p.0.state.version.edits.overrides(), ["air.velocity=[4.0,2.0,0.0]"]);
+    assert!(!p.0.state.history.can_undo());
+    p.act(Action::Save);
+    p.until_opened();
+    assert_eq!(fs::read_to_string(stage.shot()).unwrap(), theirs.replace("2.5", "4"));
 }
 
 #[test]
@@ -388,6 +467,8 @@ fn a_and_b_are_shown_together_and_change_places() {
     assert_eq!(bits(p.0.shown_of_a().unwrap()), a);
     let b = bits(&p.frame(10));
     assert_ne!(a, b);
+    let differ: Vec<&str> = p.0.differences().iter().map(|found| &*found.path).collect();
+    assert_eq!(differ, ["air.velocity", "view.anticipation_frames"]);
     p.act(Action::SwapAAndB);
     p.until("the change of places", |p| !p.is_opening() && p.timeline().is_clean(0, LAST));
     assert_eq!(bits(&p.frame(10)), a);
@@ -423,6 +504,60 @@ fn the_adaptive_run_and_its_costs_end_where_a_finished_run_is_opened() {
     assert!(p.0.rival_costs().is_empty());
     p.act(Action::MeasureAdaptive { on: true });
     assert_eq!(p.0.rival(), (false, false));
+}
+
+#[test]
+fn after_a_step_that_failed_the_simulation_goes_on_with_the_next_settings() {
+    let stage = Stage::set();
+    let mut p = stage.start(true);
+    p.until_done();
+    p.act(Action::GoTo { frame: 4 });
+    p.act(Action::Set { path: "gravity".into(), value: json!([0.0, 0.0, -1e300]) });
+    p.wait_for(|p| p.failed_frame() == Some(5));
+    let said = p.0.state.messages.last().unwrap().text.clone();
+    assert!(said.starts_with("frame 5 cannot be simulated with these settings: the step"), "{said}");
+    assert!(p.0.state.simulating && !p.0.is_working());
+    // It is not tried again until somebody asks.
+    p.act(Action::GoTo { frame: 0 });
+    assert!(!p.0.is_working());
+    p.act(Action::Simulate { on: true });
+    p.wait_for(|p| p.failed_frame() == Some(5));
+    p.act(Action::Undo);
+    p.wait_for(|p| !p.is_opening() && p.timeline().is_clean(0, LAST));
+    assert_eq!(p.0.failed_frame(), None);
+    p.act(windy(3.0));
+    p.until("frames of other settings", |p| {
+        !p.is_opening() && p.timeline().status(LAST) == FrameStatus::Ready
+    });
+}
+
+#[test]
+fn what_a_frame_cost_is_known_when_the_shot_is_opened_again() {
+    let stage = Stage::set();
+    let run = stage.finished_run();
+    let mut p = stage.start(true);
+    p.until_done();
+    p.act(Action::Open { path: run });
+    p.until_opened();
+    p.act(Action::Open { path: stage.shot() });
+    p.until("the frames again", |p| !p.is_opening() && p.timeline().slot(3).is_some());
+    let costs = |p: &Previewer| (0..4).all(|f| p.timeline().slot(f).unwrap().cost.is_some());
+    assert!(costs(&p.0));
+}
+
+#[test]
+fn the_same_warning_of_many_frames_is_said_once() {
+    let stage = Stage::set();
+    let mut p = stage.start(false);
+    p.until_opened();
+    for (shown, warning) in [(3, "3 crossings"), (4, "12 crossings"), (4, "thin"), (5, "1 crossings")] {
+        p.0.warn_of_frame(shown, warning);
+    }
+    let said: Vec<&str> = p.0.state.messages.iter().map(|m| &*m.text).collect();
+    assert_eq!(said, ["frame 4: thin", "frame 5: 1 crossings (and 2 frames before it likewise)"]);
+    p.act(Action::DismissMessage { index: 1 });
+    p.0.warn_of_frame(6, "2 crossings");
+    assert_eq!(p.0.state.messages.last().unwrap().text, "frame 6: 2 crossings");
 }
 
 #[test]

@@ -59,8 +59,19 @@ impl Previewer {
         }
     }
 
-    /// Moves playback on to a time (s, of any clock that runs evenly); returns when to come again.
+    /// Moves playback on to a time (s, of any clock that runs evenly), and lets notes go; returns when
+    /// to come again.
     pub fn tick(&mut self, now: f64) -> Option<f64> {
+        let in_work = self.in_work();
+        if self.making.since.map(|(frame, _)| frame) != in_work {
+            self.making.since = in_work.map(|frame| (frame, now));
+        }
+        self.making.seconds = self.making.since.map_or(0.0, |(_, since)| now - since);
+        let next = [self.play_on(now), self.state.let_notes_go(now)];
+        next.into_iter().flatten().reduce(f64::min)
+    }
+
+    fn play_on(&mut self, now: f64) -> Option<f64> {
         if !self.state.playback.playing {
             return None;
         }

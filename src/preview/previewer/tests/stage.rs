@@ -38,6 +38,7 @@ impl Stage {
     pub fn request(&self) -> Request {
         Request {
             shot: Some(self.shot()),
+            text: None,
             camera: None,
             sets: Vec::new(),
             fps: None,
@@ -137,6 +138,16 @@ impl Driven {
             let errors = self.0.state.messages.iter().filter(|m| m.level == Level::Error);
             assert_eq!(errors.count(), 0, "{:?}", self.0.state.messages);
             assert!(began.elapsed() < PATIENCE, "{what} has not come about");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    /// As [`Self::until`], whatever is said meanwhile.
+    pub fn wait_for(&mut self, is_so: impl Fn(&Previewer) -> bool) {
+        let began = Instant::now();
+        while !is_so(&self.0) {
+            self.0.receive();
+            assert!(began.elapsed() < PATIENCE, "{:?}", self.0.state.messages);
             std::thread::sleep(Duration::from_millis(1));
         }
     }

@@ -1,0 +1,144 @@
+//! In which settings two versions of a shot differ.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+/// A setting that two versions have otherwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// In the shot: `view.nu_out`; `camera` for all that a camera consists of.
+    pub path: String,
+    /// Its value in A and in B, in short.
+    pub values: [String; 2],
+}
+
+/// Cameras differ in too many numbers to be listed.
+const CAMERA: &str = "camera";
+/// Longer values are left out (characters).
+const VALUE_MAX: usize = 24;
+
+/// The differences of two resolved shots, in order of path. What all garments have in common is said
+/// once, without a garment's number.
+pub fn differences(a: &Value, b: &Value) -> Vec<Difference> {
+    let mut leaves = Vec::new();
+    collect(String::new(), Some(a), Some(b), &mut leaves);
+    let mut grouped: BTreeMap<String, Vec<[String; 2]>> = BTreeMap::new();
+    for (path, values) in &leaves {
+        grouped.entry(common_path(path)).or_default().push(values.clone());
+    }
+    let garment_count = b["garments"].as_array().map_or(0, Vec::len);
+    let is_common = |path: &str, values: &[[String; 2]]| {
+        values.iter().all(|pair| *pair == values[0])
+            && (values.len() == garment_count || leaves.iter().any(|(leaf, _)| leaf == path))
+    };
+    let mut found: Vec<Difference> = Vec::new();
+    for (path, values) in &leaves {
+        let common = common_path(path);
+        let path = if is_common(&common, &grouped[&common]) { common } else { path.clone() };
+        if found.iter().all(|difference| difference.path != path) {
+            found.push(Difference { path, values: values.clone() });
+        }
+    }
+    found.sort_by(|a, b| a.path.cmp(&b.path));
+    found
+}
+
+/// A garment's path without which garment it is.
+fn common_path(path: &str) -> String {
+    match path.strip_prefix("garments.").and_then(|rest| rest.split_once('.')) {
+        Some((_, rest)) => rest.to_owned(),
+        None => path.to_owned(),
+    }
+}
+
+/// Every value that is in one and not, or otherwise, in the other; `None` is one that is not there.
+fn collect(
+    path: String,
+    a: Option<&Value>,
+    b: Option<&Value>,
+    leaves: &mut Vec<(String, [String; 2])>,
+) {
+    if a == b {
+        return;
+    }
+    if path == "viewers" || path == CAMERA {
+        leaves.push((CAMERA.to_owned(), [String::new(), String::new()]));
+        return;
+    }
+    let below = |name: &str| match path.is_empty() {
+        true => name.to_owned(),
+        false => format!("{path}.{name}"),
+    };
+    match (a, b) {
+        (Some(Value::Object(of_a)), Some(Value::Object(of_b))) => {
+            let names = of_a.keys().chain(of_b.keys().filter(|name| !of_a.contains_key(*name)));
+            for name in names {
+                collect(below(name), of_a.get(name), of_b.get(name), leaves);
+            }
+        }
+        (Some(Value::Array(of_a)), Some(Value::Array(of_b)))
+            if of_a.iter().chain(of_b).any(Value::is_object) =>
+        {
+            for index in 0..of_a.len().max(of_b.len()) {
+                collect(below(&index.to_string()), of_a.get(index), of_b.get(index), leaves);
+            }
+        }
+        _ => leaves.push((path, [a, b].map(in_short))),
+    }
+}
+
+fn in_short(value: Option<&Value>) -> String {
+    match value {
+        None | Some(Value::Null) => "-".to_owned(),
+        Some(value) => {
+            let text = value.to_string();
+            if text.chars().count() > VALUE_MAX { "...".to_owned() } else { text }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn difference(path: &str, a: &str, b: &str) -> Difference {
+        Difference { path: path.to_owned(), values: [a.to_owned(), b.to_owned()] }
+    }
+
+    #[test]
+    fn what_all_garments_have_is_said_once_and_a_camera_in_one_word() {
+        let shot = |nu_out: f64, eye: f64| {
+            let garment = json!({"view": {"nu_out": nu_out, "nu_back": 0.5}});
+            json!({"garments": [garment, garment], "viewers": [{"keys": [{"eye": [eye, 0, 0]}]}]})
+        };
+        assert_eq!(differences(&shot(0.1, 0.0), &shot(0.1, 0.0)), []);
+        let found = differences(&shot(0.1, 0.0), &shot(0.2, 1.0));
+        assert_eq!(found, [difference("camera", "", ""), difference("view.nu_out", "0.1", "0.2")]);
+    }
+
+    #[test]
+    fn what_one_garment_has_is_said_of_it() {
+        let shot = |of_second: f64| {
+            json!({"garments": [{"view": {"nu_out": 0.1}}, {"view": {"nu_out": of_second}}]})
+        };
+        let found = differences(&shot(0.1), &shot(0.3));
+        assert_eq!(found, [difference("garments.1.view.nu_out", "0.1", "0.3")]);
+    }
+
+    #[test]
+    fn lists_are_values_and_what_is_missing_or_long_is_said_in_short() {
+        let (a, b) = (
+            json!({"air": {"velocity": [1, 0, 0]}, "text": "a", "gone": 1}),
+            json!({"air": {"velocity": [2, 0, 0]}, "text": "b".repeat(60)}),
+        );
+        let expected = [
+            difference("air.velocity", "[1,0,0]", "[2,0,0]"),
+            difference("gone", "1", "-"),
+            difference("text", "\"a\"", "..."),
+        ];
+        assert_eq!(differences(&a, &b), expected);
+    }
+}
