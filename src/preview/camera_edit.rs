@@ -10,12 +10,14 @@ use glam::DVec3;
 use serde_json::{Value, json};
 use thiserror::Error;
 
+use super::edits::is_same;
 use crate::scene::native::{CameraFile, KeyFile};
 use crate::scene::{Scene, recorded_viewers};
 use crate::shot::CameraPath;
 
-/// A camera with keys as its file has it: valid at all times, an edit that would break it is refused.
-#[derive(Clone, Debug, PartialEq)]
+/// A camera with keys as its file has it: valid at all times, an edit that would break it is refused. Two
+/// are the same if they are bit for bit.
+#[derive(Clone, Debug)]
 pub struct CameraEdit {
     file: CameraFile,
 }
@@ -84,11 +86,7 @@ impl CameraEdit {
         let mut camera = without_nulls(json!(self.file));
         for key in camera["keys"].as_array_mut().into_iter().flatten() {
             let Some(key) = key.as_object_mut() else { continue };
-            key.retain(|name, value| match name.as_str() {
-                "cut" => *value == json!(true),
-                "up" => *value != json!([0.0, 0.0, 1.0]),
-                _ => true,
-            });
+            key.retain(|name, value| !is_implied(name, value));
         }
         camera
     }
@@ -204,6 +202,21 @@ impl CameraEdit {
 
     fn existing(&self, frame: f64) -> Result<usize, CameraEditError> {
         self.index(frame).ok_or(CameraEditError::NoKey(frame))
+    }
+}
+
+impl PartialEq for CameraEdit {
+    fn eq(&self, other: &Self) -> bool {
+        is_same(&json!(self.file), &json!(other.file))
+    }
+}
+
+/// Whether a key that does not say this means the same.
+pub(super) fn is_implied(name: &str, value: &Value) -> bool {
+    match name {
+        "cut" => *value == json!(false),
+        "up" => is_same(value, &json!([0.0, 0.0, 1.0])),
+        _ => false,
     }
 }
 

@@ -268,6 +268,21 @@ fn the_camera_of_several_viewers_is_the_first_and_a_shot_may_have_none() {
 }
 
 #[test]
+fn cameras_that_differ_in_the_sign_of_nothing_are_told_apart_and_say_so() {
+    let with_up = |x: f64| {
+        let mut camera = zoom();
+        camera["name"] = json!("zoom");
+        camera["keys"][0]["up"] = json!([x, 0.0, 1.0]);
+        edit_with(&camera)
+    };
+    assert_eq!(with_up(0.0), with_up(0.0));
+    assert_ne!(with_up(-0.0), with_up(0.0));
+    assert_eq!(with_up(0.0).json()["keys"][0].get("up"), None);
+    let said = with_up(-0.0).json()["keys"][0]["up"][0].as_f64().unwrap();
+    assert_eq!(said.to_bits(), (-0.0f64).to_bits());
+}
+
+#[test]
 fn an_edited_camera_is_saved_in_the_shot_and_loads_the_same() {
     let (shot, files) = own_shot();
     let text = String::from_utf8(files.read(&shot).unwrap()).unwrap();

@@ -1,5 +1,7 @@
 //! A group or list in place of another, with the remarks of what stays.
 
+use std::borrow::Cow;
+
 use jsonc_parser::ast;
 use jsonc_parser::common::Ranged;
 use jsonc_parser::tokens::Token;
@@ -7,11 +9,13 @@ use jsonc_parser::{
     CollectOptions, CommentCollectionStrategy, Scanner, ScannerOptions, parse_to_ast,
     parse_to_serde_value,
 };
-use serde_json::{Map, Number, Value};
+use serde_json::{Map, Value};
 
 use super::entries::{Entries, Entry};
 use super::layout::{LINE_MAX, indentation};
 use super::put::Document;
+use crate::preview::camera_edit::is_implied;
+use crate::preview::edits::is_same;
 use crate::scene::SYNTAX;
 
 /// What tells a group in a list from the others there: camera keys are known by their frames.
@@ -31,11 +35,13 @@ impl Document<'_> {
     /// members and elements that stay the remarks stay with them; those of others go with these.
     pub(super) fn kept(&self, node: &ast::Value<'_>, value: &Value) -> String {
         let old = &self.text[node.start()..node.end()];
-        if says(old).is_some_and(|said| is_same(&said, value)) {
+        let said = says(old);
+        let value = &said.as_ref().map_or(Cow::Borrowed(value), |said| with_stated(said, value));
+        if said.is_some_and(|said| is_same(&said, value)) {
             return old.to_owned();
         }
         let merged = Entries::of(self.text, node).and_then(|entries| {
-            let wanted = match (node, value) {
+            let wanted = match (node, value.as_ref()) {
                 (ast::Value::Object(_), Value::Object(members)) => {
                     wanted_members(&entries.list, members)
                 }
@@ -135,12 +141,27 @@ fn has_same_identity(old: &Value, new: &Value) -> bool {
 
 /// As a key that was moved in time alone.
 fn is_same_but_for_identity(old: &Value, new: &Value) -> bool {
-    let [old, new] = [old, new].map(|value| {
-        let mut members = value.as_object().cloned().unwrap_or_default();
-        members.remove(IDENTITY);
-        Value::Object(members)
-    });
-    is_same(&old, &new)
+    let mut new = with_stated(old, new).into_owned();
+    if let (Some(new), Some(old)) = (new.get_mut(IDENTITY), old.get(IDENTITY)) {
+        *new = old.clone();
+    }
+    is_same(old, &new)
+}
+
+/// A camera's key with what its author stated though it goes without saying, where it still holds.
+fn with_stated<'v>(old: &Value, new: &'v Value) -> Cow<'v, Value> {
+    let (Some(said), Some(members)) = (old.as_object(), new.as_object()) else {
+        return Cow::Borrowed(new);
+    };
+    let is_stated =
+        |&(name, value): &(&String, &Value)| !members.contains_key(name) && is_implied(name, value);
+    let stated: Vec<_> = said.iter().filter(is_stated).collect();
+    if stated.is_empty() || !members.contains_key(IDENTITY) {
+        return Cow::Borrowed(new);
+    }
+    let mut members = members.clone();
+    members.extend(stated.into_iter().map(|(name, value)| (name.clone(), value.clone())));
+    Cow::Owned(Value::Object(members))
 }
 
 /// Those that stay in the order of the file, each new one behind the one that it comes behind.
@@ -202,30 +223,6 @@ impl Pieces<'_> {
 /// `None` for what is no JSON.
 fn says(text: &str) -> Option<Value> {
     parse_to_serde_value(text, &SYNTAX).ok()
-}
-
-/// The same, in whichever way numbers are written: what is told apart when settings are read is told
-/// apart here.
-fn is_same(a: &Value, b: &Value) -> bool {
-    match (a, b) {
-        (Value::Number(a), Value::Number(b)) => is_same_number(a, b),
-        (Value::Array(a), Value::Array(b)) => {
-            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_same(a, b))
-        }
-        (Value::Object(a), Value::Object(b)) => {
-            let is_member = |(name, value)| b.get(name).is_some_and(|other| is_same(value, other));
-            a.len() == b.len() && a.iter().all(is_member)
-        }
-        _ => a == b,
-    }
-}
-
-/// Whole numbers to the last digit, all others to the bit: 0 is not -0.0.
-fn is_same_number(a: &Number, b: &Number) -> bool {
-    match a.is_f64() || b.is_f64() {
-        true => a.as_f64().map(f64::to_bits) == b.as_f64().map(f64::to_bits),
-        false => a == b,
-    }
 }
 
 /// Whether brackets, blanks and remarks end in a remark that goes on to the end of its line.

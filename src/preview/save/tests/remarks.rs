@@ -113,6 +113,64 @@ fn numbers_that_differ_in_a_sign_or_in_the_last_digit_are_written() {
     assert_eq!(saved, shot.replace("0993", "0992"));
 }
 
+/// A shot whose author states what goes without saying.
+const STATED: &str = r#"{
+  "shotsilk": 1,
+  "camera": {
+    "resolution": [1280, 720], "fov_y_deg": 31.5,
+    "keys": [
+      {"frame": 0, "eye": [0, -3, 1], "up": [0, 0, 1], "target": [0, 0, 1], "cut": false}, // a
+      {"frame": 20, "cut": false, "eye": [1, -3, 1], "target": [0, 0, 1]}, // b
+      {"frame": 40, "eye": [2, -3, 1], "target": [0, 0, 1], "cut": true} // c
+    ]
+  }
+}
+"#;
+
+/// What an edit of the camera says: nothing that goes without saying.
+fn unstated() -> Value {
+    let mut camera = said(STATED)["camera"].clone();
+    for key in camera["keys"].as_array_mut().unwrap() {
+        key.as_object_mut().unwrap().retain(|name, value| name != "up" && *value != json!(false));
+    }
+    camera
+}
+
+#[test]
+fn what_a_key_states_though_it_goes_without_saying_stays_while_it_holds() {
+    let saved = |camera: Value| saved_text(STATED, &edits([("camera", camera)])).unwrap();
+    assert_eq!(saved(unstated()), STATED);
+    let mut moved = unstated();
+    moved["keys"][0]["eye"] = json!([0.5, -3.0, 1.0]);
+    moved["keys"][1]["frame"] = json!(30.0);
+    let expected = STATED
+        .replace("\"eye\": [0, -3, 1]", "\"eye\": [0.5, -3, 1]")
+        .replace("\"frame\": 20", "\"frame\": 30");
+    assert_eq!(saved(moved), expected);
+    let mut cut = unstated();
+    cut["keys"][0]["up"] = json!([0.0, 1.0, 1.0]);
+    cut["keys"][1]["cut"] = json!(true);
+    cut["keys"][2].as_object_mut().unwrap().remove("cut");
+    let expected = STATED
+        .replace("[0, 0, 1], \"cut\": true} // c", "[0, 0, 1]} // c")
+        .replace("\"up\": [0, 0, 1]", "\"up\": [0, 1, 1]")
+        .replace("\"frame\": 20, \"cut\": false", "\"frame\": 20, \"cut\": true");
+    assert_eq!(saved(cut), expected);
+    // A key of its own states nothing.
+    let mut more = unstated();
+    let key = json!({"frame": 10, "eye": [0.5, -3, 1], "target": [0, 0, 1]});
+    more["keys"].as_array_mut().unwrap().insert(1, key);
+    let line = "\n      {\"frame\": 10, \"eye\": [0.5, -3, 1], \"target\": [0, 0, 1]},";
+    assert_eq!(saved(more), STATED.replace(" // a", &format!(" // a{line}")));
+}
+
+#[test]
+fn a_direction_that_differs_in_a_sign_goes_not_without_saying() {
+    let text = STATED.replace("\"up\": [0, 0, 1]", "\"up\": [-0.0, 0, 1]");
+    let saved = saved_text(&text, &edits([("camera", unstated())])).unwrap();
+    assert_eq!(said(&saved)["camera"]["keys"][0].get("up"), None, "{saved}");
+}
+
 /// Keys of a camera as the text of a shot has them, each with a remark of its own.
 fn text_of(frames: &[u32], style: &[usize]) -> String {
     let one = |(number, frame): (usize, &u32)| {
