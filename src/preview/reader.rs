@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::keeper::path_of;
 use super::key::FrameKey;
+use super::planner::chain;
 use crate::run::{RunReader, read_frame_file};
 use crate::sim::Frame;
 
@@ -27,9 +28,9 @@ impl FrameReader {
             return Ok(frame.clone());
         }
         let frame = match (&self.run, &self.folder) {
-            (Some(run), _) => run.frame(number).map_err(|error| error.to_string())?,
+            (Some(run), _) => run.frame(number).map_err(|error| chain(&error))?,
             (None, Some(folder)) => {
-                read_frame_file(&path_of(folder, key)).map_err(|error| error.to_string())?
+                read_frame_file(&path_of(folder, key)).map_err(|error| chain(&error))?
             }
             (None, None) => return Err("it is no longer in memory".to_owned()),
         };

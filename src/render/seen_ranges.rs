@@ -49,8 +49,10 @@ impl SeenRanges {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
-    use crate::render::fixture::{flat, frame};
+    use crate::render::fixture::{flat, frame, square};
 
     #[test]
     fn ranges_grow_with_what_is_seen() {
@@ -68,5 +70,26 @@ mod tests {
         }
         assert!(ends[1].0 < ends[0].0, "shorter edges were seen");
         assert!((ends[1].1 - ends[0].1).abs() <= 1e-3 * ends[0].1, "longer ones were not");
+    }
+
+    #[test]
+    fn speeds_reach_up_to_the_fastest_face_that_was_seen_in_any_frame() {
+        let mut seen = SeenRanges::default();
+        assert_eq!(seen.speed(), ColourBy::speed(0.0));
+        for (speed, fastest) in [(2.0, 2.0), (0.5, 2.0), (30.0, 30.0)] {
+            let mut mesh = square(0.0, 0.1);
+            for node in mesh.node_ids() {
+                mesh.velocity[node] = DVec3::new(0.0, -speed, 0.0);
+            }
+            seen.see(&frame([square(0.0, 0.1), mesh]));
+            assert_eq!(seen.speed(), ColourBy::speed(fastest));
+        }
+        let ColourBy::Speed { limit } = seen.speed() else { panic!("{:?}", seen.speed()) };
+        assert!(limit >= 30.0, "{limit}");
+        assert_eq!(seen.edge_size(), {
+            let mut still = SeenRanges::default();
+            still.see(&frame([square(0.0, 0.1)]));
+            still.edge_size()
+        });
     }
 }

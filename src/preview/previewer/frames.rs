@@ -248,9 +248,10 @@ impl Previewer {
                 self.take_in(key, frame);
             }
             Err(why) => {
+                let text = self.unreadable(key, &why);
                 self.frames.store.note_lost(key);
                 self.frames.timeline.forget(key);
-                self.state.say(Level::Warning, format!("{why}: the frame is made again"));
+                self.state.say(Level::Warning, text);
                 self.refresh();
             }
         }
@@ -259,6 +260,19 @@ impl Previewer {
         if self.frames.loading.is_empty() {
             self.read_ahead();
         }
+    }
+
+    /// What is said of a frame that cannot be read: a finished run has no settings to make it again.
+    fn unreadable(&self, key: FrameKey, why: &str) -> String {
+        let Some(scenery) = self.open.scenery.as_ref().filter(|_| self.open.run.is_some()) else {
+            return format!("{why}: the frame is made again");
+        };
+        let keys = self.frames.timeline.keys();
+        let number = keys.iter().position(|&of_frame| of_frame == Some(key));
+        let shown = number.map_or("a frame".to_owned(), |number| {
+            format!("frame {}", scenery.shown(number as u32))
+        });
+        format!("{shown} of the run cannot be shown: {why}")
     }
 
     fn take_found(&mut self, keys: Vec<FrameKey>) {

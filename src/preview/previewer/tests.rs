@@ -247,6 +247,23 @@ fn a_finished_run_can_be_scrubbed_and_not_changed() {
 }
 
 #[test]
+fn of_a_finished_run_a_frame_that_cannot_be_read_is_named_with_the_reason_and_the_others_are_shown()
+{
+    let stage = Stage::set();
+    let run = stage.finished_run();
+    fs::write(run.join("frames/000002.sfr"), "no state").unwrap();
+    let mut p = stage.open(Source::Run(run), true);
+    p.until("word of the frame", |p| {
+        p.state.messages.iter().any(|m| m.text.contains("frame 2 of the run cannot be shown"))
+    });
+    let text = &p.0.state.messages.last().unwrap().text;
+    assert!(text.contains("000002.sfr") && text.contains("not a shotsilk state"), "{text}");
+    assert!(!text.contains("made again"), "{text}");
+    assert_eq!(p.frame(3).number, 3);
+    assert_eq!(p.0.simulated(), 0);
+}
+
+#[test]
 fn a_saved_shot_keeps_its_comments_and_its_frames() {
     let stage = Stage::set();
     let mut p = stage.start(true);
