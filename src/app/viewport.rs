@@ -13,8 +13,7 @@ use egui::{Color32, Rect, Sense, Stroke, StrokeKind, TextureId, Ui, pos2, vec2};
 use super::theme;
 use crate::preview::{Action, EyeAndTarget, Layout, Look, Previewer, Scenery, Wake};
 use crate::render::{
-    CameraTrail, ColourBy, DrawList, GateRect, SafeArea, TargetTexture, gate_aspect,
-    gate_rect,
+    CameraTrail, ColourBy, DrawList, GateRect, SafeArea, TargetTexture, gate_aspect, gate_rect,
 };
 use crate::shot::{CameraPath, View};
 use crate::sim::Frame;
@@ -203,7 +202,7 @@ impl Viewports {
         self.image(ui, eye, Side::B, rect, size, 0.0);
         if let Some(share) = wipe {
             self.image(ui, eye, Side::A, rect, size, share as f32);
-            wipe::show(ui, rect, share, previewer, actions);
+            wipe::show(ui, eye, rect, share, previewer, actions);
         }
         if eye == Eye::Shot {
             self.gate(ui, rect, &previewer.state().look);

@@ -298,9 +298,8 @@ impl Program {
     ) {
         /// egui says "never" by a delay beyond any patience.
         const NEVER: Duration = Duration::from_secs(3600);
-        let at_once = self.desk.has_actions()
-            || self.presses.has_more()
-            || delay == Some(Duration::ZERO);
+        let at_once =
+            self.desk.has_actions() || self.presses.has_more() || delay == Some(Duration::ZERO);
         let animation = delay.filter(|&delay| delay < NEVER).map(|delay| now + delay.as_secs_f64());
         let script = self.player.as_ref().map(|player| now + player.patience());
         let again = (presented == Presented::NotNow).then_some(now + 0.1);

@@ -23,33 +23,35 @@ const VALUE_MAX: usize = 24;
 pub fn differences(a: &Value, b: &Value) -> Vec<Difference> {
     let mut leaves = Vec::new();
     collect(String::new(), Some(a), Some(b), &mut leaves);
-    let mut grouped: BTreeMap<String, Vec<[String; 2]>> = BTreeMap::new();
+    let mut of_garments: BTreeMap<String, Vec<[String; 2]>> = BTreeMap::new();
     for (path, values) in &leaves {
-        grouped.entry(common_path(path)).or_default().push(values.clone());
-    }
-    let garment_count = b["garments"].as_array().map_or(0, Vec::len);
-    let is_common = |path: &str, values: &[[String; 2]]| {
-        values.iter().all(|pair| *pair == values[0])
-            && (values.len() == garment_count || leaves.iter().any(|(leaf, _)| leaf == path))
-    };
-    let mut found: Vec<Difference> = Vec::new();
-    for (path, values) in &leaves {
-        let common = common_path(path);
-        let path = if is_common(&common, &grouped[&common]) { common } else { path.clone() };
-        if found.iter().all(|difference| difference.path != path) {
-            found.push(Difference { path, values: values.clone() });
+        if let Some(common) = in_garment(path) {
+            of_garments.entry(common.to_owned()).or_default().push(values.clone());
         }
     }
-    found.sort_by(|a, b| a.path.cmp(&b.path));
-    found
+    let garment_count = b["garments"].as_array().map_or(0, Vec::len);
+    let is_common = |values: &Vec<[String; 2]>| {
+        values.len() == garment_count && values.iter().all(|pair| *pair == values[0])
+    };
+    let mut found: BTreeMap<String, [String; 2]> = BTreeMap::new();
+    for (path, values) in leaves {
+        match in_garment(&path) {
+            Some(common) if is_common(&of_garments[common]) => {
+                found.insert(common.to_owned(), values);
+            }
+            // What the shot says of all garments, they say themselves.
+            None if of_garments.contains_key(&path) => {}
+            _ => {
+                found.insert(path, values);
+            }
+        }
+    }
+    found.into_iter().map(|(path, values)| Difference { path, values }).collect()
 }
 
 /// A garment's path without which garment it is.
-fn common_path(path: &str) -> String {
-    match path.strip_prefix("garments.").and_then(|rest| rest.split_once('.')) {
-        Some((_, rest)) => rest.to_owned(),
-        None => path.to_owned(),
-    }
+fn in_garment(path: &str) -> Option<&str> {
+    path.strip_prefix("garments.")?.split_once('.').map(|(_, rest)| rest)
 }
 
 /// Every value that is in one and not, or otherwise, in the other; `None` is one that is not there.
@@ -112,7 +114,12 @@ mod tests {
     fn what_all_garments_have_is_said_once_and_a_camera_in_one_word() {
         let shot = |nu_out: f64, eye: f64| {
             let garment = json!({"view": {"nu_out": nu_out, "nu_back": 0.5}});
-            json!({"garments": [garment, garment], "viewers": [{"keys": [{"eye": [eye, 0, 0]}]}]})
+            let written = if nu_out == 0.1 { json!(null) } else { json!(nu_out) };
+            json!({
+                "view": {"nu_out": written},
+                "garments": [garment, garment],
+                "viewers": [{"keys": [{"eye": [eye, 0, 0]}]}],
+            })
         };
         assert_eq!(differences(&shot(0.1, 0.0), &shot(0.1, 0.0)), []);
         let found = differences(&shot(0.1, 0.0), &shot(0.2, 1.0));
@@ -121,9 +128,7 @@ mod tests {
 
     #[test]
     fn what_one_garment_has_is_said_of_it() {
-        let shot = |of_second: f64| {
-            json!({"garments": [{"view": {"nu_out": 0.1}}, {"view": {"nu_out": of_second}}]})
-        };
+        let shot = |of_second: f64| json!({"garments": [{"view": {"nu_out": 0.1}}, {"view": {"nu_out": of_second}}]});
         let found = differences(&shot(0.1), &shot(0.3));
         assert_eq!(found, [difference("garments.1.view.nu_out", "0.1", "0.3")]);
     }

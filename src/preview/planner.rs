@@ -9,8 +9,8 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::{Duration, SystemTime};
 
-use super::message::{Event, Outbox};
 use super::edits::edit_as_override;
+use super::message::{Event, Outbox};
 use super::{Edits, Plan};
 use crate::request::{Request, RequestError};
 use crate::run::RunReader;
@@ -116,6 +116,7 @@ fn words(error: RequestError, edits: &Edits) -> String {
         _ => return error.to_string(),
     };
     match edits.iter().find(|(path, value)| **argument == edit_as_override(path, value)) {
+        Some((path, _)) if problem.to_string().contains(path) => problem.to_string(),
         Some((path, value)) if value.to_string().len() <= VALUE_MAX => {
             format!("{path} cannot be {value}: {problem}")
         }

@@ -140,9 +140,16 @@ impl CameraPanel {
                     LensValue::FocalMm(_) => Action::SetFocalLength { frame, focal_mm: now },
                 });
             }
+        });
+        ui.horizontal_wrapped(|ui| {
+            ui.label(RichText::new("changed").color(theme::FAINT));
             for (choice, name, hint) in [
-                (LensFor::ThisFrame, "at this frame", "changed, it sets a key here"),
-                (LensFor::WholePath, "whole path", "changed, it is that of all keys"),
+                (LensFor::ThisFrame, "at this frame", "a changed lens sets a key here"),
+                (
+                    LensFor::WholePath,
+                    "whole path",
+                    "a changed lens is that of all keys, also of those with one of their own",
+                ),
             ] {
                 let chosen = ui.selectable_value(&mut lens_for, choice, name).on_hover_text(hint);
                 if chosen.clicked() {

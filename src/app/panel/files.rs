@@ -59,8 +59,9 @@ impl FilesPanel {
 
     /// The path, what can be done with it, and why it could not be done.
     fn typed(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
-        let field =
-            TextEdit::singleline(&mut self.path).hint_text("path to open, or to save as").desired_width(f32::INFINITY);
+        let field = TextEdit::singleline(&mut self.path)
+            .hint_text("path to open, or to save as")
+            .desired_width(f32::INFINITY);
         let response = ui.add(field);
         let entered = response.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
         ui.horizontal(|ui| {

@@ -4,15 +4,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{
-    CachedList, Drawn, Eye, FoundWitness, Pane, Same, Side, Viewports, index, shot_view,
-};
+use super::{CachedList, Drawn, Eye, FoundWitness, Pane, Same, Side, Viewports, index, shot_view};
 use crate::app::export::seen_in_shape;
 use crate::preview::{ColourMode, EyeAndTarget, ImagePlane, Look, Previewer, Scenery};
 use crate::render::{
-    Bounds, CameraTrail, ColourBy, CrossingMarks, DrawList, Gpu, PictureOptions,
-    RenderError, Renderer, STRAIN_LIMIT, ShotCamera, TargetTexture, UiPainter, WITNESS_FOV_Y,
-    WitnessSubject, witness_view,
+    Bounds, CameraTrail, ColourBy, CrossingMarks, DrawList, Gpu, PictureOptions, RenderError,
+    Renderer, STRAIN_LIMIT, ShotCamera, TargetTexture, UiPainter, WITNESS_FOV_Y, WitnessSubject,
+    witness_view,
 };
 use crate::shot::{CameraPath, Lens, View};
 use crate::sim::Frame;

@@ -3,9 +3,9 @@
 use egui::text::LayoutJob;
 use egui::{Color32, FontId, Rect, Sense, Stroke, TextFormat, Ui, pos2, vec2};
 
-use super::short;
+use super::{Eye, short};
 use crate::app::theme;
-use crate::preview::{Action, Difference, Previewer};
+use crate::preview::{Action, Difference, Layout, Previewer};
 
 /// To each side of the line it can be grabbed (points).
 const GRAB: f32 = 6.0;
@@ -14,9 +14,10 @@ const LISTED_MAX: usize = 6;
 /// Between the line and what is written beside it (points).
 const GAP: f32 = 8.0;
 
-/// `share` of the picture's width is A's.
+/// `share` of the picture's width is A's. The notes are written once, whatever the number of views.
 pub fn show(
     ui: &Ui,
+    eye: Eye,
     rect: Rect,
     share: f64,
     previewer: &Previewer,
@@ -31,7 +32,8 @@ pub fn show(
     let a = previewer.state().a.as_ref().map_or("", |a| &a.settings_hash);
     let b = previewer.scenery().map_or("", |scenery| &scenery.settings_hash);
     let found = previewer.differences();
-    for (side, name, hash) in [(0, "A", a), (1, "B", b)] {
+    let is_noted = eye == Eye::Shot || previewer.state().look.layout == Layout::Witness;
+    for (side, name, hash) in [(0, "A", a), (1, "B", b)].into_iter().filter(|_| is_noted) {
         note(ui, rect, x, side, words(name, hash, side, found));
     }
     if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
@@ -69,7 +71,8 @@ fn note(ui: &Ui, rect: Rect, x: f32, side: usize, lines: Vec<String>) {
     });
     let text = painter.layout_job(job);
     let left = if side == 0 { x - GAP - text.size().x } else { x + GAP };
-    let at = pos2(left, rect.top() + GAP);
+    // The legend is at the top.
+    let at = pos2(left, rect.bottom() - GAP - text.size().y);
     let plate = Rect::from_min_size(at, text.size()).expand2(vec2(4.0, 2.0));
     painter.rect_filled(plate, 3.0, Color32::from_black_alpha(150));
     painter.galley(at, text, theme::TEXT);

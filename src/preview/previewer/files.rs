@@ -110,8 +110,7 @@ impl Previewer {
         };
         let written = edited(&text, &edits)?;
         write_whole(&to, &written)?;
-        let request =
-            Request { shot: Some(to), camera: None, sets: Vec::new(), ..request.clone() };
+        let request = Request { shot: Some(to), camera: None, sets: Vec::new(), ..request.clone() };
         Ok((request, Saved { text: text.into(), written: written.into(), edits }))
     }
 

@@ -532,7 +532,10 @@ fn after_a_step_that_failed_the_simulation_goes_on_with_the_next_settings() {
     p.act(Action::Set { path: "gravity".into(), value: json!([0.0, 0.0, -1e300]) });
     p.wait_for(|p| p.failed_frame() == Some(5));
     let said = p.0.state.messages.last().unwrap().text.clone();
-    assert!(said.starts_with("frame 5 cannot be simulated with these settings: the step"), "{said}");
+    assert!(
+        said.starts_with("frame 5 cannot be simulated with these settings: the step"),
+        "{said}"
+    );
     assert!(p.0.state.simulating && !p.0.is_working());
     // It is not tried again until somebody asks.
     p.act(Action::GoTo { frame: 0 });
@@ -567,7 +570,9 @@ fn the_same_warning_of_many_frames_is_said_once() {
     let stage = Stage::set();
     let mut p = stage.start(false);
     p.until_opened();
-    for (shown, warning) in [(3, "3 crossings"), (4, "12 crossings"), (4, "thin"), (5, "1 crossings")] {
+    for (shown, warning) in
+        [(3, "3 crossings"), (4, "12 crossings"), (4, "thin"), (5, "1 crossings")]
+    {
         p.0.warn_of_frame(shown, warning);
     }
     let said: Vec<&str> = p.0.state.messages.iter().map(|m| &*m.text).collect();
