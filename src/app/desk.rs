@@ -35,6 +35,14 @@ pub struct Desk {
     scale: Option<f32>,
 }
 
+/// How far the work of threads is: frames simulated, of the adaptive run, and of the export going on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorkDone {
+    simulated: u64,
+    compared: usize,
+    exported: Option<u32>,
+}
+
 impl Desk {
     pub fn new(
         previewer: Previewer,
@@ -183,6 +191,15 @@ impl Desk {
             previewer.is_working(),
             self.exports.progress(),
         )
+    }
+
+    /// What has been done since the program began.
+    pub fn work_done(&self) -> WorkDone {
+        WorkDone {
+            simulated: self.previewer.simulated(),
+            compared: self.previewer.rival_costs().iter().flatten().count(),
+            exported: self.exports.progress().map(|progress| progress.done),
+        }
     }
 
     /// Whether actions wait to be done: then another pass is due at once.

@@ -215,7 +215,11 @@ fn check_clean(
     let timeline = previewer.timeline();
     let missing = (first..=last).find(|&frame| timeline.slot(frame).is_none());
     if let Some(frame) = missing {
-        return Err(format!("frame {} is not simulated yet", scenery.shown(frame)));
+        let why = match previewer.plan() {
+            Some(_) => "is not simulated yet",
+            None => "is missing in the run",
+        };
+        return Err(format!("frame {} {why}", scenery.shown(frame)));
     }
     if kind == ExportKind::Still || timeline.is_clean(first, last) {
         return Ok(());

@@ -1,6 +1,6 @@
-//! Presses are answered where they happen: a pass of the panels asks only where the pointer is at its
-//! end, so what comes after a press waits for the next pass. Otherwise a quick drag of something small
-//! would be one of whatever it ends on.
+//! Presses are answered where they happen: a pass of the panels asks only where the pointer is, and
+//! whether it is down, at its end. So a quick drag that is over before the next redraw is told in parts;
+//! otherwise it would be lost, or be one of whatever it ends on.
 
 use egui::Event;
 
@@ -12,18 +12,24 @@ pub struct Presses {
 }
 
 impl Presses {
-    /// The events of the next pass: those that wait and the new ones, up to a press from which the
-    /// pointer has gone on.
+    /// The events of the next pass, of those that wait and the new ones: a press, the way from it and
+    /// the release are for passes of their own.
     pub fn take(&mut self, events: Vec<Event>) -> Vec<Event> {
         self.waiting.extend(events);
-        let is_press = |event: &Event| matches!(event, Event::PointerButton { pressed: true, .. });
-        let is_move = |event: &Event| matches!(event, Event::PointerMoved(_));
-        let press = self.waiting.iter().position(is_press);
-        let later = match press {
-            Some(press) if self.waiting[press..].iter().any(is_move) => press + 1,
-            _ => self.waiting.len(),
-        };
-        let rest = self.waiting.split_off(later);
+        let (mut is_pressed, mut has_moved) = (false, false);
+        let end = self.waiting.iter().position(|event| match event {
+            Event::PointerButton { pressed: true, .. } => {
+                (is_pressed, has_moved) = (true, false);
+                false
+            }
+            Event::PointerMoved(_) => {
+                has_moved = true;
+                is_pressed
+            }
+            Event::PointerButton { pressed: false, .. } => has_moved,
+            _ => false,
+        });
+        let rest = self.waiting.split_off(end.unwrap_or(self.waiting.len()));
         std::mem::replace(&mut self.waiting, rest)
     }
 
@@ -49,15 +55,28 @@ mod tests {
     }
 
     #[test]
-    fn a_quick_drag_takes_two_passes_and_a_click_one() {
+    fn a_quick_drag_takes_three_passes_and_a_click_one() {
         let mut presses = Presses::default();
-        let drag = vec![moved(1.0), button(1.0, true), moved(9.0), button(9.0, false)];
+        let drag = vec![moved(1.0), button(1.0, true), moved(8.0), moved(9.0), button(9.0, false)];
         assert_eq!(presses.take(drag), [moved(1.0), button(1.0, true)]);
         assert!(presses.has_more());
-        assert_eq!(presses.take(vec![moved(8.0)]), [moved(9.0), button(9.0, false), moved(8.0)]);
+        assert_eq!(presses.take(Vec::new()), [moved(8.0), moved(9.0)]);
+        assert_eq!(presses.take(vec![moved(7.0)]), [button(9.0, false), moved(7.0)]);
         assert!(!presses.has_more());
-        let click = vec![button(8.0, true), button(8.0, false)];
+        let click = vec![moved(8.0), button(8.0, true), button(8.0, false)];
         assert_eq!(presses.take(click.clone()), click);
         assert!(!presses.has_more() && presses.take(Vec::new()).is_empty());
+    }
+
+    #[test]
+    fn no_event_is_lost_whatever_the_order() {
+        let events = vec![button(1.0, false), button(2.0, true), button(3.0, true), moved(4.0)];
+        let events: Vec<Event> = events.iter().cycle().take(23).cloned().collect();
+        let mut presses = Presses::default();
+        let mut taken = presses.take(events.clone());
+        for _ in 0..events.len() {
+            taken.extend(presses.take(Vec::new()));
+        }
+        assert_eq!(taken, events);
     }
 }

@@ -13,6 +13,8 @@ pub struct ExportPanel {
     kind: ExportKind,
     viewport: Viewport,
     width: u32,
+    /// On a contact sheet, where many stand side by side.
+    sheet_width: u32,
     burn_in: bool,
     /// `None` until somebody types: then it follows the kind.
     to: Option<String>,
@@ -24,6 +26,7 @@ impl Default for ExportPanel {
             kind: ExportKind::Still,
             viewport: Viewport::Shot,
             width: 1280,
+            sheet_width: 320,
             burn_in: true,
             to: None,
         }
@@ -60,11 +63,7 @@ impl ExportPanel {
                 }
                 let is_ready = !context.exports.is_running() && !to.trim().is_empty();
                 if ui.add_enabled(is_ready, egui::Button::new("Export")).clicked() {
-                    let (kind, viewport, width, burn_in) =
-                        (self.kind, self.viewport, self.width, self.burn_in);
-                    let to = PathBuf::from(to.trim());
-                    let export = Export { kind, viewport, width, burn_in, to, overwrite: false };
-                    actions.push(Action::Export { export });
+                    actions.push(Action::Export { export: self.export(to.trim()) });
                 }
                 let words = "stills of any frame; all else of frames that a clean run gives";
                 ui.label(RichText::new(words).small().color(theme::FAINT));
@@ -72,6 +71,15 @@ impl ExportPanel {
         if !open {
             actions.push(Action::SetPanel { panel: PanelName::Export, open: false });
         }
+    }
+
+    fn export(&self, to: &str) -> Export {
+        let (kind, to, burn_in) = (self.kind, PathBuf::from(to), self.burn_in);
+        let (viewport, width) = match kind {
+            ExportKind::Sheet => (Viewport::Both, self.sheet_width),
+            _ => (self.viewport, self.width),
+        };
+        Export { kind, viewport, width, burn_in, to, overwrite: false }
     }
 
     fn how(&mut self, ui: &mut Ui) {
@@ -92,7 +100,11 @@ impl ExportPanel {
         }
         ui.horizontal(|ui| {
             let label = ui.label("width of one view");
-            let field = DragValue::new(&mut self.width).range(64..=8192).suffix(" px");
+            let width = match self.kind {
+                ExportKind::Sheet => &mut self.sheet_width,
+                _ => &mut self.width,
+            };
+            let field = DragValue::new(width).range(64..=8192).suffix(" px");
             ui.add(field).labelled_by(label.id);
         });
     }

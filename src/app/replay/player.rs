@@ -12,14 +12,15 @@ use anyhow::{Result, ensure};
 use egui::{Event, RawInput};
 
 use crate::app::Desk;
+use crate::app::desk::WorkDone;
 use crate::app::script::{ScriptError, ScriptStep};
 use crate::preview::FrameStatus;
 
 pub use checks::check_ended;
 use checks::{check_answered, check_going, check_written, may_leave_a_question_open};
 
-/// A step that waits gives up after so long, and so does a script that has no more steps but waits for
-/// what it opens or exports (s).
+/// A step that waits gives up when nothing has come of it for so long, and so does a script that has no
+/// more steps but waits for what it opens or exports (s). A long film may take longer.
 const PATIENCE: f64 = 600.0;
 /// Passes with nothing to do before a picture is taken: what one pass asks for, the next one shows.
 const SETTLING_PASSES: u32 = 3;
@@ -39,6 +40,8 @@ pub struct Player {
     step: usize,
     /// When the step at hand began (s).
     since: Option<f64>,
+    /// How far work was, and since when it has been (s).
+    stood: Option<(WorkDone, f64)>,
     settled: u32,
     /// Inputs still to come, a pass at a time: a press and its release are two.
     inputs: VecDeque<Vec<Event>>,
@@ -46,7 +49,14 @@ pub struct Player {
 
 impl Player {
     pub fn new(steps: Vec<ScriptStep>) -> Self {
-        Self { steps: steps.into(), step: 1, since: None, settled: 0, inputs: VecDeque::new() }
+        Self {
+            steps: steps.into(),
+            step: 1,
+            since: None,
+            stood: None,
+            settled: 0,
+            inputs: VecDeque::new(),
+        }
     }
 
     /// Whether nothing is left to be done or to be waited for.
@@ -79,11 +89,12 @@ impl Player {
         check_written(desk)?;
         let began = *self.since.get_or_insert(now);
         let waited = now - began;
+        let idle = self.idle(desk.work_done(), now).min(waited);
         let Some(step) = self.steps.front().cloned() else {
             ensure!(
-                waited <= PATIENCE,
-                "after its last step the script has waited for {PATIENCE} s, and what it opens or \
-                 exports is not done"
+                idle <= PATIENCE,
+                "after its last step the script has waited for {PATIENCE} s without a frame, and what \
+                 it opens or exports is not done"
             );
             return Ok(Request::Nothing);
         };
@@ -99,12 +110,21 @@ impl Player {
                 self.since = None;
                 self.settled = 0;
             }
-            None if waited > PATIENCE => {
-                return Err(self.failed(&step, format!("it has waited for {PATIENCE} s")));
+            None if idle > PATIENCE && !matches!(step, ScriptStep::Wait { .. }) => {
+                let why = format!("it has waited for {PATIENCE} s without a frame");
+                return Err(self.failed(&step, why));
             }
             None => {}
         }
         Ok(request.unwrap_or(Request::Nothing))
+    }
+
+    /// For how long no frame has been made or exported (s).
+    fn idle(&mut self, done: WorkDone, now: f64) -> f64 {
+        let (_, since) =
+            *self.stood.take_if(|(before, _)| *before == done).get_or_insert((done, now));
+        self.stood = Some((done, since));
+        now - since
     }
 
     fn failed(&self, step: &ScriptStep, why: String) -> anyhow::Error {

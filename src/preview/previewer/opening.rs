@@ -94,6 +94,9 @@ impl Previewer {
         self.forget_what_was_open(scenery.last);
         self.frames.timeline =
             Timeline::of_run(scenery.last, run.frames(), &run.info().input_hash, &identity(&run));
+        if let Some(words) = gaps(&run, &scenery) {
+            self.state.say(Level::Warning, words);
+        }
         self.open.scenery = Some(Arc::new(scenery));
         self.open.plan = None;
         self.open.run = Some(run);
@@ -120,6 +123,19 @@ impl Previewer {
         self.making.warned.clear();
         self.forget_failure();
     }
+}
+
+/// Which frames a run does not have between its first and its last, in words.
+fn gaps(run: &RunReader, scenery: &Scenery) -> Option<String> {
+    let there = run.frames();
+    let first = there.first().copied().unwrap_or(0);
+    let is_missing = |frame: &u32| there.binary_search(frame).is_err();
+    let missing: Vec<u32> = (first..=scenery.last).filter(is_missing).collect();
+    let shown = scenery.shown(*missing.first()?);
+    Some(match missing.len() {
+        1 => format!("frame {shown} is missing in the run"),
+        count => format!("{count} frames are missing in the run, the first is {shown}"),
+    })
 }
 
 /// What tells a run from all others: where it is, and what made it from what.

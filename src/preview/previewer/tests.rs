@@ -583,6 +583,24 @@ fn the_same_warning_of_many_frames_is_said_once() {
 }
 
 #[test]
+fn frames_that_a_run_lacks_are_named_when_it_is_opened() {
+    for (lacks, words) in [
+        (vec![1], "frame 1 is missing in the run"),
+        (vec![1, 2], "2 frames are missing in the run, the first is 1"),
+    ] {
+        let stage = Stage::set();
+        let run = stage.finished_run();
+        for number in &lacks {
+            fs::remove_file(run.join(format!("frames/{number:06}.sfr"))).unwrap();
+        }
+        let mut p = stage.open(Source::Run(run), false);
+        p.until_opened();
+        assert_eq!(p.0.state.messages.last().unwrap().text, words);
+        assert_eq!(p.0.timeline().status(1), FrameStatus::Missing);
+    }
+}
+
+#[test]
 fn dropped_while_it_works_it_ends_at_once() {
     let stage = Stage::set();
     let mut p = stage.start(true);
