@@ -240,14 +240,23 @@ mod tests {
     #[test]
     fn a_text_takes_the_place_of_what_is_on_disk() {
         let folder = tempfile::tempdir().unwrap();
-        let shot = folder.path().join("sub/../shot.json");
-        std::fs::create_dir(folder.path().join("sub")).unwrap();
-        let text = |frames: u32| format!("{{\"shotsilk\": 1, \"frames\": {frames}}}");
+        let (text, files) = crate::own_shot::own_shot_parts();
+        for (name, contents) in files {
+            let path = folder.path().join(name);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, contents).unwrap();
+        }
+        let text = |frames: u32| {
+            let text = String::from_utf8_lossy(text);
+            text.replace("\"frames\": 100", &format!("\"frames\": {frames}"))
+        };
+        // As a path may be written.
+        let shot = folder.path().join("meshes/../shot.json");
         std::fs::write(&shot, text(3)).unwrap();
         let on_disk = Request { shot: Some(shot), ..own() };
         let instead = Request { text: Some(text(5).into()), ..on_disk.clone() };
         let last = |request: &Request| request.load().unwrap().frames.last;
-        assert_eq!(last(&instead) - last(&on_disk), 2);
+        assert_eq!([last(&on_disk), last(&instead)], [3, 5]);
     }
 
     #[test]
