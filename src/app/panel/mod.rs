@@ -6,6 +6,7 @@ mod costs;
 mod export;
 mod files;
 mod help;
+mod legend;
 mod messages;
 mod parameters;
 mod room;
@@ -80,6 +81,7 @@ impl Panels {
         actions: &mut Vec<Action>,
     ) {
         let look = context.previewer.state().look;
+        legend::show(ui, context);
         messages::show(ui, context, actions);
         if look.help_panel {
             help::show(ui, actions);

@@ -6,6 +6,7 @@
 mod camera;
 mod files;
 mod frames;
+mod making;
 mod opening;
 mod parts;
 mod rival;
