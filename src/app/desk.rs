@@ -78,12 +78,7 @@ impl Desk {
         self.exports.look_after(&mut self.previewer);
         let next = self.previewer.tick(now);
         self.work += began.elapsed();
-        let is_busy = self.previewer.is_working()
-            || self.previewer.is_opening()
-            || self.previewer.is_loading()
-            || self.previewer.rival().1
-            || self.exports.is_running();
-        let progress = is_busy.then_some(now + SHOW_PROGRESS_EVERY);
+        let progress = self.is_busy().then_some(now + SHOW_PROGRESS_EVERY);
         [next, progress].into_iter().flatten().reduce(f64::min)
     }
 
@@ -205,6 +200,15 @@ impl Desk {
     /// Whether actions wait to be done: then another pass is due at once.
     pub fn has_actions(&self) -> bool {
         !self.actions.is_empty()
+    }
+
+    /// Whether anything is being simulated, read, opened or exported.
+    pub fn is_busy(&self) -> bool {
+        self.previewer.is_working()
+            || self.previewer.is_opening()
+            || self.previewer.is_loading()
+            || self.previewer.rival().1
+            || self.exports.is_running()
     }
 
     pub fn is_exporting(&self) -> bool {

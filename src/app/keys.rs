@@ -87,7 +87,7 @@ pub const SHORTCUTS: [Shortcut; 34] = [
         frame: f64::from(now(p)),
     }),
     shortcut(PLAIN, Key::S, "S", "simulate or halt", |p| Action::Simulate {
-        on: !p.state().simulating,
+        on: p.would_simulate(),
     }),
     shortcut(PLAIN, Key::R, "R", "re-run from the start", |_| Action::ReRun),
     shortcut(COMMAND.plus(SHIFT), Key::Z, "Ctrl Shift Z", "redo", |_| Action::Redo),

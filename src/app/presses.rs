@@ -12,21 +12,24 @@ pub struct Presses {
 }
 
 impl Presses {
-    /// The events of the next pass, of those that wait and the new ones: a press, the way from it and
-    /// the release are for passes of their own.
+    /// The events of the next pass, of those that wait and the new ones: a press, the way from it, the
+    /// release and the way from there are for passes of their own.
     pub fn take(&mut self, events: Vec<Event>) -> Vec<Event> {
         self.waiting.extend(events);
-        let (mut is_pressed, mut has_moved) = (false, false);
+        let (mut is_settled, mut has_moved) = (false, false);
         let end = self.waiting.iter().position(|event| match event {
             Event::PointerButton { pressed: true, .. } => {
-                (is_pressed, has_moved) = (true, false);
+                (is_settled, has_moved) = (true, false);
                 false
             }
             Event::PointerMoved(_) => {
                 has_moved = true;
-                is_pressed
+                is_settled
             }
-            Event::PointerButton { pressed: false, .. } => has_moved,
+            Event::PointerButton { pressed: false, .. } => {
+                is_settled = true;
+                has_moved
+            }
             _ => false,
         });
         let rest = self.waiting.split_off(end.unwrap_or(self.waiting.len()));
@@ -61,7 +64,9 @@ mod tests {
         assert_eq!(presses.take(drag), [moved(1.0), button(1.0, true)]);
         assert!(presses.has_more());
         assert_eq!(presses.take(Vec::new()), [moved(8.0), moved(9.0)]);
-        assert_eq!(presses.take(vec![moved(7.0)]), [button(9.0, false), moved(7.0)]);
+        // The pointer is where it was let go when that is answered.
+        assert_eq!(presses.take(vec![moved(7.0)]), [button(9.0, false)]);
+        assert_eq!(presses.take(Vec::new()), [moved(7.0)]);
         assert!(!presses.has_more());
         let click = vec![moved(8.0), button(8.0, true), button(8.0, false)];
         assert_eq!(presses.take(click.clone()), click);

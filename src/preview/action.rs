@@ -173,9 +173,11 @@ pub enum Action {
     SetScale {
         scale: f32,
     },
+    /// The message of this text.
     DismissMessage {
-        index: usize,
+        text: String,
     },
+    DismissAll,
     Quit,
     /// Whether an action that would write over files is to be done all the same.
     WriteOver {
@@ -199,6 +201,7 @@ impl Action {
                 | Self::SetFocalLength { .. }
                 | Self::SetFieldOfView { .. }
                 | Self::MakeKeys { .. }
+                | Self::Reload
                 | Self::Save
                 | Self::SaveAs { .. }
         )
@@ -254,6 +257,7 @@ pub enum ExportKind {
     Sequence,
     /// The range that plays, as a film.
     Video,
-    /// The range that plays as a run folder, for `render`, `sheet` and `compare`.
+    /// From the first frame to the end of the range, as a run folder, for `render`, `sheet` and
+    /// `compare`.
     Run,
 }

@@ -30,13 +30,6 @@ impl History {
         }
     }
 
-    /// A change that came to nothing: the version noted last was in force all the time.
-    pub fn forget(&mut self, before: &Version) {
-        if self.done.last() == Some(before) {
-            self.done.pop();
-        }
-    }
-
     /// The version before, if there is one; `now` can be had back by [`History::redo`].
     pub fn undo(&mut self, now: Version) -> Option<Version> {
         let before = self.done.pop()?;

@@ -3,6 +3,7 @@
 mod table;
 mod value;
 
+pub(super) use value::stated_value;
 pub use value::{default_value, value};
 
 use serde_json::Value;

@@ -36,8 +36,16 @@ pub enum Opened {
 
 /// A handle to the thread; it ends when this is dropped.
 pub struct Planner {
-    wishes: Sender<(u64, Source, Edits)>,
+    wishes: Sender<Wish>,
     last: u64,
+}
+
+/// See [`Planner::open`].
+struct Wish {
+    number: u64,
+    source: Source,
+    edits: Edits,
+    unread: Option<PathBuf>,
 }
 
 impl Planner {
@@ -51,16 +59,18 @@ impl Planner {
     }
 
     /// Opens a source, then says [`Event::Planned`] with the number returned here. Of several wishes
-    /// that wait only the last is met.
-    pub fn open(&mut self, source: Source, edits: Edits) -> u64 {
+    /// that wait only the last is met. A file whose text the source brings along is `unread`: changes of
+    /// it are noticed since it was read, not since now.
+    pub fn open(&mut self, source: Source, edits: Edits, unread: Option<PathBuf>) -> u64 {
         self.last += 1;
+        let wish = Wish { number: self.last, source, edits, unread };
         // The thread is there as long as this is.
-        let _ = self.wishes.send((self.last, source, edits));
+        let _ = self.wishes.send(wish);
         self.last
     }
 }
 
-fn work(queue: &Receiver<(u64, Source, Edits)>, outbox: &Outbox) {
+fn work(queue: &Receiver<Wish>, outbox: &Outbox) {
     let mut watch = Watch::default();
     loop {
         match queue.recv_timeout(LOOK_EVERY) {
@@ -68,11 +78,11 @@ fn work(queue: &Receiver<(u64, Source, Edits)>, outbox: &Outbox) {
                 while let Ok(later) = queue.try_recv() {
                     wish = later;
                 }
-                let (request, source, edits) = wish;
+                let Wish { number: request, source, edits, unread } = wish;
                 let opened = catch_unwind(AssertUnwindSafe(|| opened(&source, &edits)))
                     .unwrap_or_else(|_| Err("the shot cannot be read".to_owned()));
                 if let Ok(opened) = &opened {
-                    watch = Watch::over(opened);
+                    watch = Watch::over(opened).keeping(&watch, unread.as_deref());
                 }
                 outbox.send(Event::Planned { request, opened });
             }
@@ -148,6 +158,16 @@ impl Watch {
         // Those that the program carries are no files, and never change.
         let real = plan.files().filter(|path| path.is_file());
         Self { files: real.map(|path| (path.clone(), written(path))).collect() }
+    }
+
+    /// With the time that another has of a file.
+    fn keeping(mut self, other: &Self, unread: Option<&Path>) -> Self {
+        let is_it = |(path, _): &&mut (PathBuf, _)| Some(path.as_path()) == unread;
+        let before = other.files.iter().find(|(path, _)| Some(path.as_path()) == unread);
+        if let (Some((_, time)), Some((_, before))) = (self.files.iter_mut().find(is_it), before) {
+            *time = *before;
+        }
+        self
     }
 
     /// Files written since the last call.

@@ -233,7 +233,9 @@ impl State {
             None => self.messages.push(message),
         }
         if self.messages.len() > MESSAGES_KEPT {
-            self.messages.remove(0);
+            let is_error = |message: &Message| message.level == Level::Error;
+            let least = self.messages.iter().position(|message| !is_error(message));
+            self.messages.remove(least.unwrap_or(0));
         }
     }
 

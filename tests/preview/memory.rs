@@ -101,7 +101,7 @@ fn a_shot_that_cannot_be_read_is_said_in_the_window_and_leaves_it_usable() {
     let script = json!([
         {"wait": {"seconds": 0.5}},
         {"report": {"to": at("bad-report.json")}},
-        {"act": {"dismiss-message": {"index": 0}}},
+        {"act": "dismiss-all"},
         {"act": "open-own"},
         {"wait-for-frames": {"first": 0, "last": 0}},
         {"report": {"to": at("good-report.json")}}

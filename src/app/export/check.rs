@@ -14,7 +14,7 @@ use super::{ExportKind, ExportRequest, ExportView};
 pub const WIDTH_MIN: u32 = 16;
 pub const WIDTH_MAX: u32 = 16_384;
 
-/// The pixels of all pictures on a contact sheet: 1.6 GB in memory.
+/// The pixels of all pictures on a contact sheet: 1.6 GB in memory, and as much for the page.
 pub const SHEET_PIXELS_MAX: u64 = 400_000_000;
 
 /// The frames to export, in order; at least one.

@@ -59,7 +59,11 @@ pub(super) fn sheet(task: Task<'_>, frames: &[u32]) -> Result<Outcome> {
         thumbnail_width: task.request.width,
         pairs_per_row: None,
     };
-    pending.write_png(&compose(&items, &options))?;
+    let page = compose(&items, &options);
+    if task.ticket.is_cancelled() {
+        return Ok(Outcome::Cancelled(NOTHING_LEFT.to_owned()));
+    }
+    pending.write_png(&page)?;
     Ok(Outcome::Whole)
 }
 

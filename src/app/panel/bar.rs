@@ -158,7 +158,7 @@ fn simulation(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action))
     let on = previewer.state().simulating;
     let hint = "simulate frames that are missing (S)";
     if ui.selectable_label(on, "Simulate").on_hover_text(hint).clicked() {
-        wish(Action::Simulate { on: !on });
+        wish(Action::Simulate { on: previewer.would_simulate() });
     }
     let hint = "everything from the start with these settings (R)";
     if ui.button("Re-run").on_hover_text(hint).clicked() {

@@ -14,8 +14,8 @@ const KEYS_EVERY: u32 = 10;
 /// See the module.
 #[derive(Default)]
 pub struct CameraPanel {
-    /// The lens being dragged, which holds when it is let go.
-    dragged_lens: Option<f64>,
+    /// The lens being dragged, and the frame it was taken at; it holds when it is let go.
+    dragged_lens: Option<(f64, f64)>,
     /// As chosen last; until then it follows the path.
     lens_for: Option<LensFor>,
     /// The camera of the plan that it was read from.
@@ -120,21 +120,25 @@ impl CameraPanel {
             true => LensFor::ThisFrame,
             false => LensFor::WholePath,
         });
-        let mut now = self.dragged_lens.unwrap_or(value);
+        let mut now = self.dragged_lens.map_or(value, |(_, lens)| lens);
         ui.horizontal_wrapped(|ui| {
             let label = ui.label(name);
             let field = DragValue::new(&mut now)
                 .range(range)
+                // One that is beyond it stays until somebody changes it.
+                .clamp_existing_to_range(false)
                 .speed(0.1)
                 .suffix(suffix)
                 .max_decimals(1)
                 .update_while_editing(false);
             let response = ui.add(field).labelled_by(label.id);
             if response.dragged() && !response.drag_stopped() {
-                self.dragged_lens = Some(now);
+                let since = self.dragged_lens.map_or(current, |(frame, _)| frame);
+                self.dragged_lens = Some((since, now));
             } else if response.drag_stopped() || response.changed() {
-                self.dragged_lens = None;
-                let frame = (lens_for == LensFor::ThisFrame).then_some(current);
+                // Playing may have gone on since.
+                let since = self.dragged_lens.take().map_or(current, |(frame, _)| frame);
+                let frame = (lens_for == LensFor::ThisFrame).then_some(since);
                 actions.push(match lens {
                     LensValue::FovYDeg(_) => Action::SetFieldOfView { frame, degrees: now },
                     LensValue::FocalMm(_) => Action::SetFocalLength { frame, focal_mm: now },

@@ -131,16 +131,11 @@ impl CostsPanel {
             }
             return;
         }
-        let mut curves = vec![
-            (theme::status_colour(FrameStatus::Stale), costs.stale.as_slice()),
-            (ADAPTIVE, previewer.rival_costs()),
-            (OURS, &costs.ours),
-        ];
-        if self.shows == Quantity::Cumulative {
-            // A sum of what is out of date is that of nothing.
-            curves.remove(0);
-        }
-        for (colour, costs) in curves {
+        let stale = (theme::status_colour(FrameStatus::Stale), costs.stale.as_slice());
+        // A sum of what is out of date is that of nothing.
+        let stale = (self.shows != Quantity::Cumulative).then_some(stale);
+        let others = [(ADAPTIVE, previewer.rival_costs()), (OURS, costs.ours.as_slice())];
+        for (colour, costs) in stale.into_iter().chain(others) {
             lines(costs, self.shows, colour).into_iter().for_each(|line| plot.line(line));
         }
     }

@@ -41,15 +41,13 @@ fn said(ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
             more => format!("dismiss all ({more} more)"),
         };
         if ui.small_button(name).clicked() {
-            // From the last one, so that those before it stay where they are.
-            let all = (0..messages.len()).rev();
-            actions.extend(all.map(|index| Action::DismissMessage { index }));
+            actions.push(Action::DismissAll);
         }
     }
-    for (index, message) in messages.iter().enumerate().skip(hidden) {
+    for message in messages.iter().skip(hidden) {
         card(ui, |ui| {
             if ui.small_button("x").on_hover_text("dismiss").clicked() {
-                actions.push(Action::DismissMessage { index });
+                actions.push(Action::DismissMessage { text: message.text.clone() });
             }
             let text = RichText::new(&message.text).color(theme::level_colour(message.level));
             ui.add(egui::Label::new(text).wrap());

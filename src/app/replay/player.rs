@@ -150,7 +150,8 @@ impl Player {
             ScriptStep::WaitForFrames { first, last } => has_frames(desk, *first..=*last)?,
             ScriptStep::WaitUntilIdle => {
                 check_going(desk)?;
-                self.settled = if is_busy(desk) { 0 } else { self.settled + 1 };
+                self.settled =
+                    if desk.has_actions() || desk.is_busy() { 0 } else { self.settled + 1 };
                 self.settled > SETTLING_PASSES
             }
             ScriptStep::WaitUntilShown { frame } => {
@@ -197,17 +198,6 @@ fn has_frames(desk: &Desk, mut frames: RangeInclusive<u32>) -> Result<bool> {
     let is_there =
         |frame| matches!(timeline.status(frame), FrameStatus::Ready | FrameStatus::Mixed);
     Ok(!desk.has_actions() && !desk.previewer().is_opening() && frames.all(is_there))
-}
-
-/// Whether anything is being simulated, read, opened or exported.
-fn is_busy(desk: &Desk) -> bool {
-    let previewer = desk.previewer();
-    desk.has_actions()
-        || previewer.is_opening()
-        || previewer.is_working()
-        || previewer.is_loading()
-        || previewer.rival().1
-        || desk.is_exporting()
 }
 
 #[cfg(test)]

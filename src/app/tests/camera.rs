@@ -2,8 +2,9 @@
 
 use egui::accesskit::Role;
 
-use super::seat::Seat;
+use super::seat::{Seat, Setting};
 use crate::preview::Action;
+use crate::preview::stage::SHOT;
 use crate::shot::{CameraPath, Lens};
 
 fn path(seat: &Seat) -> CameraPath {
@@ -63,6 +64,20 @@ fn a_lens_changes_for_the_whole_path_or_at_a_frame_which_gets_a_key() {
     set(&mut seat, 25.0);
     let again = lens(&seat);
     assert_eq!(again, [again[0]; 3]);
+}
+
+#[test]
+fn a_lens_beyond_the_fields_range_stays_until_somebody_changes_it() {
+    let shot = SHOT.replace("\"fov_y_deg\": 20", "\"fov_y_deg\": 0.5");
+    assert_ne!(shot, SHOT);
+    let mut seat = Seat::take_with(Setting { shot, ..Setting::default() });
+    for frame in [0, 2, 4] {
+        seat.act(Action::GoTo { frame });
+        seat.until_planned();
+    }
+    assert!(!seat.is_offered("Undo") && !seat.previewer().has_unsaved_edits());
+    let shown = seat.node(Role::SpinButton, "field of view").value();
+    assert_eq!(shown.as_deref(), Some("0.5 deg"));
 }
 
 #[test]

@@ -107,8 +107,8 @@ fn who_asks_for_one_view_on_a_contact_sheet_is_told_that_it_shows_both() {
         };
         let before = told(&seat);
         seat.act(sheet(viewport, 32, &to));
-        wait(&mut seat);
         assert_eq!(told(&seat) - before, usize::from(is_told), "{viewport:?}");
+        wait(&mut seat);
         fs::remove_file(&to).unwrap();
     }
 }

@@ -23,7 +23,7 @@ fn a_path_that_cannot_be_opened_stays_with_the_reason_beside_it() {
     assert_eq!(seat.text().value().as_deref(), Some(&*missing));
     let why = seat.previewer().opening_failure().unwrap().to_owned();
     // Beside the path, not only among the messages.
-    seat.act(Action::DismissMessage { index: 0 });
+    seat.act(Action::DismissAll);
     assert!(seat.previewer().state().messages.is_empty());
     assert!(why.contains("nothing.json") && seat.says(&why), "{why}");
     // What was open still is.

@@ -150,6 +150,17 @@ impl Seat {
         self.settle();
     }
 
+    /// Until no plan is awaited, whatever is said meanwhile.
+    pub fn until_answered(&mut self) {
+        let began = Instant::now();
+        self.settle();
+        while self.previewer().is_opening() {
+            self.settle();
+            assert!(began.elapsed() < PATIENCE, "there is no answer");
+        }
+        self.settle();
+    }
+
     /// Until no plan is awaited.
     pub fn until_planned(&mut self) {
         self.settle();

@@ -28,9 +28,7 @@ fn notes_go_by_themselves_and_errors_stay_until_they_are_dismissed() {
     seat.until_refused();
     let (note, error) = ("kept as A", "nothing.json");
     assert!(seat.mentions(note) && seat.mentions(error));
-    seat.pass(9.0);
-    assert!(seat.mentions(note));
-    seat.pass(3.0);
+    seat.pass(20.0);
     assert!(!seat.mentions(note) && seat.mentions(error));
     seat.pass(1000.0);
     assert!(seat.mentions(error));
@@ -54,15 +52,10 @@ fn all_messages_are_dismissed_at_once() {
 fn a_setting_that_cannot_be_is_named_and_what_was_said_goes_with_the_next_that_can() {
     let mut seat = Seat::take();
     seat.act(Action::Set { path: "view.nu_out".into(), value: json!(-5) });
-    let is_planned = |seat: &Seat| !seat.previewer().is_opening();
-    while !is_planned(&seat) {
-        seat.settle();
-    }
+    seat.until_answered();
     assert!(seat.mentions("view.nu_out is -5, but must be") && !seat.mentions("--set"));
     seat.act(windy(2.0));
-    while !is_planned(&seat) {
-        seat.settle();
-    }
+    seat.until_answered();
     assert!(!seat.mentions("view.nu_out is -5, but must be"));
 }
 

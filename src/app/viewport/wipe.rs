@@ -33,7 +33,8 @@ pub fn show(
     let b = previewer.scenery().map_or("", |scenery| &scenery.settings_hash);
     let found = previewer.differences();
     let is_noted = eye == Eye::Shot || previewer.state().look.layout == Layout::Witness;
-    for (side, name, hash) in [(0, "A", a), (1, "B", b)].into_iter().filter(|_| is_noted) {
+    for (side, name, hash) in [(0, "A", [a, b]), (1, "B", [b, a])].into_iter().filter(|_| is_noted)
+    {
         note(ui, rect, x, side, words(name, hash, side, found));
     }
     if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
@@ -43,10 +44,12 @@ pub fn show(
 }
 
 /// Which side it is, by what settings, and its values of those that differ.
-fn words(name: &str, hash: &str, side: usize, found: &[Difference]) -> Vec<String> {
+fn words(name: &str, [hash, other]: [&str; 2], side: usize, found: &[Difference]) -> Vec<String> {
+    let is_same = hash == other;
     let mut lines = vec![format!("{name}   {}", short(hash))];
     if found.is_empty() {
-        lines.push("the same settings".to_owned());
+        let words = if is_same { "the same settings" } else { "the same settings, other files" };
+        lines.push(words.to_owned());
     }
     let listed = found.iter().take(LISTED_MAX);
     lines.extend(listed.map(|found| format!("{} {}", found.path, found.values[side])));

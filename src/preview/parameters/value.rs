@@ -42,9 +42,14 @@ pub fn default_value(path: &str) -> Option<Value> {
     }
 }
 
+/// What the shot itself says at a path, if anything.
+pub fn stated_value<'a>(written: &'a Value, path: &str) -> Option<&'a Value> {
+    at(written, path).filter(|value| !value.is_null())
+}
+
 /// True if the shot itself says something at a path.
 pub(super) fn stated(written: &Value, path: &str) -> bool {
-    at(written, path).is_some_and(|value| !value.is_null())
+    stated_value(written, path).is_some()
 }
 
 fn value_of_shot_view(written: &Value, edits: &Edits, name: &str) -> Option<Value> {

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use serde_json::Value;
+
 use super::Previewer;
 use super::parts::{Occasion, Saved};
 use crate::output::{PendingFile, folder_of};
@@ -10,11 +12,13 @@ use crate::own_shot::own_shot_parts;
 use crate::preview::action::Action;
 use crate::preview::camera_edit::camera_setting;
 use crate::preview::history::Version;
+use crate::preview::parameters::stated_value;
 use crate::preview::planner::Source;
 use crate::preview::save::{rebased, saved_text, seen_from, wrapped_text};
 use crate::preview::state::Level;
 use crate::preview::{Edits, Plan};
 use crate::request::Request;
+use crate::scene::from_json;
 use crate::sim::SizingMode;
 
 impl Previewer {
@@ -62,13 +66,25 @@ impl Previewer {
         self.open_with(source);
     }
 
-    /// Reads all files again. What was changed since the shot was saved stays changed.
+    /// Reads all files again. What was changed since the shot was saved stays changed; what was undone
+    /// since then stays undone where the shot said something before.
     fn reload(&mut self) {
         let (source, saved) = (self.open.source.clone(), self.open.saved.as_ref());
-        let Some(saved) = saved else { return self.ask(source, Occasion::Change) };
-        let edits = self.state.version.edits.beyond(&saved.edits);
+        let Some(saved) = saved else { return self.ask(source, Occasion::Change, None) };
+        let now = self.state.version.edits.clone();
+        let mut edits = now.beyond(&saved.edits);
+        let text: Value = from_json("shot", &saved.text).unwrap_or_default();
+        for (path, _) in saved.edits.iter().filter(|(path, _)| now.get(path).is_none()) {
+            match stated_value(&text, path) {
+                Some(value) => edits.set(path, value.clone()),
+                None => {
+                    let words = format!("{path} is as the file has it, though that was undone");
+                    self.state.say(Level::Warning, words);
+                }
+            }
+        }
         self.state.version = Version { edits, ..self.state.version.clone() };
-        self.ask(source, Occasion::Reading);
+        self.ask(source, Occasion::Reading, None);
     }
 
     /// Into the shot's own file, or into another, which is then the one that is open. All that could be
@@ -77,8 +93,7 @@ impl Previewer {
         match self.saved(to) {
             Ok((request, saved)) => {
                 self.state.say(Level::Note, format!("saved {:?}", request.path().display()));
-                self.open.saved = Some(saved);
-                self.ask(Source::Shot(request), Occasion::Change);
+                self.ask(Source::Shot(request), Occasion::Change, Some(saved));
             }
             Err(why) => self.state.say(Level::Error, why),
         }
@@ -91,11 +106,13 @@ impl Previewer {
         };
         let edits = self.state.version.edits.clone();
         let overrides = overrides(request, self.open.plan.as_deref())?;
-        let (to, text) = match (to, request.shot.as_deref()) {
+        let mut all = overrides.clone();
+        edits.iter().for_each(|(path, value)| all.set(path, value.clone()));
+        let (to, text, written) = match (to, request.shot.as_deref()) {
             (Some(to), None) => {
                 write_files_of_own_shot(&to)?;
-                let (text, _) = own_shot_parts();
-                (to, edited(&String::from_utf8_lossy(text), &overrides)?)
+                let text = String::from_utf8_lossy(own_shot_parts().0);
+                (to, edited(&text, &overrides)?, edited(&text, &all)?)
             }
             (None, None) => {
                 return Err("the program's own shot is part of the program: Save as writes a copy"
@@ -104,11 +121,11 @@ impl Previewer {
             (to, Some(from)) => {
                 let to = to.unwrap_or_else(|| from.to_owned());
                 let original = self.original(from, &to)?;
-                let text = text_for(&original, from, &to, &overrides)?;
-                (to, text)
+                let [text, written] =
+                    [&overrides, &all].map(|edits| text_for(&original, from, &to, edits));
+                (to, text?, written?)
             }
         };
-        let written = edited(&text, &edits)?;
         write_whole(&to, &written)?;
         let request = Request { shot: Some(to), camera: None, sets: Vec::new(), ..request.clone() };
         Ok((request, Saved { text: text.into(), written: written.into(), edits }))
@@ -197,8 +214,7 @@ fn write_files_of_own_shot(shot: &Path) -> Result<(), String> {
 
 /// Whether a text is a native shot, not a scene to import.
 fn is_native(text: &str) -> bool {
-    crate::scene::from_json::<serde_json::Value>("shot", text)
-        .is_ok_and(|value| value.get("shotsilk").is_some())
+    from_json::<Value>("shot", text).is_ok_and(|value| value.get("shotsilk").is_some())
 }
 
 /// The file is the old one or the new one, never a part.

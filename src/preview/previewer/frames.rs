@@ -96,7 +96,10 @@ impl Previewer {
     }
 
     fn take_loaded(&mut self, key: FrameKey, frame: Result<Arc<Frame>, String>) {
-        self.frames.loading.remove(&key);
+        if !self.frames.loading.remove(&key) {
+            // Something else has been opened since.
+            return;
+        }
         match frame {
             Ok(frame) => {
                 self.frames.timeline.note_cost(key, Cost::of(&frame));

@@ -14,16 +14,19 @@ use crate::sim::Frame;
 impl Previewer {
     /// Sets the engine to work on the first frame that is wanted and not there.
     pub(super) fn pursue(&mut self) {
-        if !self.state.simulating || self.making.job.is_some() || self.planning.awaited.is_some() {
+        if self.planning.awaited.is_some() || self.making.job.is_some() {
             return;
         }
-        let Some(plan) = self.open.plan.clone() else { return };
         let gap = self.frames.timeline.gap(&self.frames.store);
         let next = gap.as_ref().and_then(|(_, frames)| frames.first());
         if self.making.failure.as_ref().is_some_and(|failure| Some(&failure.key) == next) {
             return;
         }
         self.forget_failure();
+        if !self.state.simulating {
+            return;
+        }
+        let Some(plan) = self.open.plan.clone() else { return };
         let Some((first, frames)) = gap else { return };
         let start = match first.checked_sub(1) {
             None => None,
@@ -53,6 +56,7 @@ impl Previewer {
             Place::Nowhere => {
                 // Only an anchor can be lost: all else is made again.
                 self.state.version.anchor = None;
+                self.planning.proved.version.anchor = None;
                 self.state.say(Level::Warning, "the frame to go on from is lost: from the start");
                 self.refresh();
                 self.pursue();
@@ -139,19 +143,25 @@ impl Previewer {
     pub(super) fn warn_of_frame(&mut self, shown: i64, warning: &str) {
         // Frames differ in how many, not in what.
         let kind = warning.replace(|c: char| c.is_ascii_digit(), "");
-        let warned = &mut self.making.warned;
-        let before = match warned.get(&kind) {
-            Some((said, before)) if self.state.messages.iter().any(|m| m.text == *said) => {
-                self.state.take_back(said);
-                before + 1
-            }
-            _ => 0,
-        };
-        let mut said = format!("frame {shown}: {warning}");
-        if before > 0 {
-            said += &format!(" (and {before} frames before it likewise)");
+        let warned = self.making.warned.entry(kind).or_default();
+        if !self.state.messages.iter().any(|message| message.text == warned.said) {
+            warned.frames.clear();
         }
-        self.state.say(Level::Warning, said.clone());
-        warned.insert(kind, (said, before));
+        self.state.take_back(&warned.said);
+        warned.said = format!("frame {shown}: {warning}");
+        match warned.frames.range(..shown).count() {
+            0 => {}
+            1 => warned.said += " (and a frame before it likewise)",
+            before => warned.said += &format!(" (and {before} frames before it likewise)"),
+        }
+        warned.frames.insert(shown);
+        self.state.say(Level::Warning, warned.said.clone());
+    }
+
+    /// What was said of frames that are not those of the settings in force any more.
+    pub(super) fn take_back_warnings(&mut self) {
+        for warned in std::mem::take(&mut self.making.warned).into_values() {
+            self.state.take_back(&warned.said);
+        }
     }
 }

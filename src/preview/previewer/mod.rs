@@ -21,7 +21,6 @@ use std::sync::mpsc::Receiver;
 use super::Plan;
 use super::action::{Action, Export};
 use super::engine::Engine;
-use super::history::Version;
 use super::keeper::Keeper;
 use super::message::{Event, Outbox, Wake};
 use super::navigate::EyeAndTarget;
@@ -35,7 +34,9 @@ use crate::run::RunInfo;
 
 pub use time::Shown;
 
-use parts::{Deferred, Frames, Making, Occasion, Open, Planning, Rival, Showing, Watched};
+use parts::{
+    Deferred, Frames, Making, Occasion, Open, Planning, Rival, Showing, Standing, Watched,
+};
 
 /// How a previewer begins.
 pub struct Start {
@@ -100,7 +101,8 @@ impl Previewer {
                 awaited: None,
                 opening_failure: None,
                 refusals: Vec::new(),
-                proved: Version::default(),
+                proved: Standing::default(),
+                tried: Vec::new(),
                 deferred: VecDeque::new(),
             },
             frames: Frames {
@@ -132,7 +134,7 @@ impl Previewer {
             events,
             effects: Vec::new(),
         };
-        previewer.ask(start.source, Occasion::Opening);
+        previewer.ask(start.source, Occasion::Opening, None);
         previewer
     }
 
@@ -225,6 +227,7 @@ impl Previewer {
             Action::Quit => self.effects.push(Effect::Quit),
 
             Action::DismissMessage { .. }
+            | Action::DismissAll
             | Action::WriteOver { .. }
             | Action::GiveUpEdits { .. } => self.act_on_words(action),
         }
@@ -251,11 +254,8 @@ impl Previewer {
     /// What has been said, and what has been asked.
     fn act_on_words(&mut self, action: Action) {
         match action {
-            Action::DismissMessage { index } => {
-                if index < self.state.messages.len() {
-                    self.state.messages.remove(index);
-                }
-            }
+            Action::DismissMessage { text } => self.state.take_back(&text),
+            Action::DismissAll => self.state.messages.clear(),
             Action::WriteOver { yes } => {
                 if let Some(asked) = self.state.overwriting.take().filter(|_| yes) {
                     self.act(asked.action);
@@ -330,6 +330,11 @@ impl Previewer {
     /// The frame that could not be simulated.
     pub fn failed_frame(&self) -> Option<u32> {
         self.making.failure.as_ref().map(|failure| failure.frame)
+    }
+
+    /// Whether who simulates or halts simulates: where a frame could not be, that is tried again.
+    pub fn would_simulate(&self) -> bool {
+        !self.state.simulating || self.failed_frame().is_some()
     }
 
     /// Whether something is being opened.

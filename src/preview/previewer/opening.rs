@@ -1,5 +1,6 @@
 //! What has been planned comes into force, be it a change or something else that is opened.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::parts::{Awaited, Occasion};
@@ -20,48 +21,79 @@ impl Previewer {
         };
         match opened {
             Ok(opened) => self.take_opened(opened, awaited),
-            Err(why) => {
-                self.state.history.forget(&self.planning.proved);
-                self.state.version = self.planning.proved.clone();
-                if awaited.occasion == Occasion::Opening {
-                    self.planning.opening_failure = Some(why.clone());
-                }
-                self.state.say(Level::Error, why.clone());
-                self.planning.refusals.push(why);
-                self.pursue();
-            }
+            Err(why) => self.take_refusal(awaited, why),
         }
         self.act_on_deferred();
     }
 
+    /// Returns to what was in force before, or to a change in between that may be possible.
+    fn take_refusal(&mut self, awaited: Awaited, why: String) {
+        self.state.say(Level::Error, why.clone());
+        let Awaited { source, occasion, saved, .. } = awaited;
+        let refused = match occasion {
+            Occasion::Opening => {
+                self.planning.opening_failure = Some(why);
+                self.planning.tried.clear();
+                None
+            }
+            Occasion::Change | Occasion::Reading => {
+                self.planning.refusals.push(why);
+                self.planning.tried.pop()
+            }
+        };
+        let other = self.planning.tried.last().cloned();
+        let is_open = other.is_some() || (refused.is_some() && saved.is_some());
+        let standing = other.unwrap_or_else(|| self.planning.proved.clone());
+        (self.state.version, self.state.history) = (standing.version, standing.history);
+        match is_open {
+            true => self.ask(source, occasion, saved),
+            false => self.pursue(),
+        }
+    }
+
     fn take_opened(&mut self, opened: Opened, awaited: Awaited) {
-        let is_new = awaited.occasion == Occasion::Opening || self.open.scenery.is_none();
-        let is_renamed = self.open.source != awaited.source;
-        if awaited.occasion != Occasion::Change && self.open.saved.take().is_some() {
+        let Awaited { source, occasion, saved, .. } = awaited;
+        let is_new = occasion == Occasion::Opening || self.open.scenery.is_none();
+        let is_renamed = self.open.source != source;
+        if occasion != Occasion::Change && self.open.saved.take().is_some() {
             // Versions counted from the text before it was saved.
             self.state.history = Default::default();
             (self.state.a, self.state.wipe) = (None, None);
         }
-        self.open.source = awaited.source;
-        self.planning.proved = self.state.version.clone();
-        self.planning.opening_failure = None;
+        self.open.saved = saved.or(self.open.saved.take());
+        self.open.source = source.clone();
+        if occasion == Occasion::Opening {
+            self.planning.opening_failure = None;
+        }
         for why in std::mem::take(&mut self.planning.refusals) {
             self.state.take_back(&why);
         }
-        self.watched.changed.clear();
-        if !std::mem::take(&mut self.watched.ignored).is_empty() && !is_new {
-            let text = "files that had changed on disk were read again with this change";
-            self.state.say(Level::Note, text);
-        }
+        self.note_read(is_new, occasion);
         match opened {
             Opened::Shot(plan) => self.follow(Arc::from(plan), is_new),
             Opened::Run(run) => self.show_run(run),
         }
-        let source = self.open.source.clone();
+        self.planning.proved = self.standing();
+        self.planning.tried.clear();
         if is_new {
             self.effects.push(Effect::Opened(source));
         } else if is_renamed {
             self.effects.push(Effect::Renamed(source));
+        }
+    }
+
+    /// Files that had changed have been read with the plan; but of a shot that was saved since, what it
+    /// was is planned upon, not what others have made of it.
+    fn note_read(&mut self, is_new: bool, occasion: Occasion) {
+        let is_kept = occasion == Occasion::Change && self.open.saved.is_some();
+        let kept = self.shot_file().filter(|_| is_kept);
+        let is_unread = |path: &PathBuf| Some(path) == kept.as_ref();
+        self.watched.changed.retain(is_unread);
+        let before = self.watched.ignored.len();
+        self.watched.ignored.retain(is_unread);
+        if self.watched.ignored.len() < before && !is_new {
+            let text = "files that had changed on disk were read again with this change";
+            self.state.say(Level::Note, text);
         }
     }
 
@@ -77,6 +109,9 @@ impl Previewer {
             self.state.playback = self.state.playback.with_last(before, scenery.last);
         }
         self.open.scenery = Some(Arc::new(scenery));
+        if self.open.plan.as_ref().is_some_and(|before| before.steps != plan.steps) {
+            self.take_back_warnings();
+        }
         self.open.plan = Some(plan);
         self.open.run = None;
         self.compare_settings();
@@ -120,7 +155,7 @@ impl Previewer {
         self.showing.of_a = None;
         self.showing.played_from = None;
         self.frames.loading.clear();
-        self.making.warned.clear();
+        self.take_back_warnings();
         self.forget_failure();
     }
 }

@@ -1,6 +1,6 @@
 //! What a previewer consists of.
 
-use std::collections::{BTreeMap, HashSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use super::Previewer;
 use super::time::Shown;
 use crate::preview::action::Action;
 use crate::preview::engine::{Engine, JobId};
-use crate::preview::history::Version;
+use crate::preview::history::{History, Version};
 use crate::preview::keeper::Keeper;
 use crate::preview::key::FrameKey;
 use crate::preview::navigate::EyeAndTarget;
@@ -36,6 +36,7 @@ pub(super) struct Open {
 
 /// A shot that has been saved since it was read. Versions go on counting from the text without their
 /// edits: so those of before stay what they were.
+#[derive(Clone)]
 pub(super) struct Saved {
     /// Without edits; with what the command line changed.
     pub text: Arc<str>,
@@ -53,10 +54,19 @@ pub(super) struct Planning {
     pub opening_failure: Option<String>,
     /// What was said about plans that could not be made, until one can.
     pub refusals: Vec<String>,
-    /// The version of the plan that is in force: what is returned to if another cannot be.
-    pub proved: Version,
+    /// Of the plan that is in force: what is returned to if no other can be.
+    pub proved: Standing,
+    /// What has been changed to since, in order; a change that cannot be takes none of the others along.
+    pub tried: Vec<Standing>,
     /// What has to wait for a plan, and where the user was when asking for it.
     pub deferred: VecDeque<Deferred>,
+}
+
+/// A version, and what can be undone and redone there.
+#[derive(Clone, Default)]
+pub(super) struct Standing {
+    pub version: Version,
+    pub history: History,
 }
 
 /// What a plan was asked for.
@@ -64,6 +74,8 @@ pub(super) struct Awaited {
     pub request: u64,
     pub source: Source,
     pub occasion: Occasion,
+    /// What has just been saved, which holds when the plan does.
+    pub saved: Option<Saved>,
 }
 
 /// Why a plan is made.
@@ -107,10 +119,17 @@ pub(super) struct Making {
     pub since: Option<(u32, f64)>,
     /// How long it has been in work (s).
     pub seconds: f64,
-    /// Warnings of frames by kind: what was said last, and in how many frames before.
-    pub warned: BTreeMap<String, (String, u32)>,
+    /// Warnings of frames by kind.
+    pub warned: BTreeMap<String, Warned>,
     /// Counts the frames that were simulated.
     pub simulated: u64,
+}
+
+/// What was said last of frames of one kind, and which they are, as captions count.
+#[derive(Default)]
+pub(super) struct Warned {
+    pub said: String,
+    pub frames: BTreeSet<i64>,
 }
 
 /// A frame that could not be simulated.

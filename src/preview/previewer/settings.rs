@@ -1,11 +1,12 @@
 //! Settings: changed, taken back, compared.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde_json::Value;
 
 use super::Previewer;
-use super::parts::{Awaited, Occasion};
+use super::parts::{Awaited, Occasion, Saved, Standing};
 use crate::preview::action::{Action, Reach};
 use crate::preview::history::Version;
 use crate::preview::plan::Anchor;
@@ -13,6 +14,7 @@ use crate::preview::planner::Source;
 use crate::preview::state::{Level, Remembered};
 use crate::preview::{Difference, Edits, differences};
 use crate::request::Request;
+use crate::scene::joined;
 
 impl Previewer {
     pub(super) fn act_on_settings(&mut self, action: Action) {
@@ -110,51 +112,65 @@ impl Previewer {
     fn enforce(&mut self, version: Version) {
         self.state.version = version;
         self.state.dragged_camera = None;
-        // A change while something is opened is one of what is being opened.
-        match &self.planning.awaited {
-            Some(Awaited { source, occasion, .. }) => self.ask(source.clone(), *occasion),
-            None => self.ask(self.open.source.clone(), Occasion::Change),
+        self.planning.tried.push(self.standing());
+        // A change while something is opened, or saved, is one of what that comes to.
+        match self.planning.awaited.take() {
+            Some(Awaited { source, occasion, saved, .. }) => self.ask(source, occasion, saved),
+            None => self.ask(self.open.source.clone(), Occasion::Change, None),
         }
+    }
+
+    pub(super) fn standing(&self) -> Standing {
+        Standing { version: self.state.version.clone(), history: self.state.history.clone() }
     }
 
     /// Opens something else, with no edits yet.
     pub(super) fn open_with(&mut self, source: Source) {
         self.state.version = Version::default();
         self.planning.opening_failure = None;
-        self.ask(source, Occasion::Opening);
+        self.planning.tried.clear();
+        self.ask(source, Occasion::Opening, None);
     }
 
-    pub(super) fn ask(&mut self, source: Source, occasion: Occasion) {
+    /// `saved` is what has just been written.
+    pub(super) fn ask(&mut self, source: Source, occasion: Occasion, saved: Option<Saved>) {
         let edits = self.state.version.edits.clone();
-        let (from, edits) = match (&source, &self.open.saved) {
-            (Source::Shot(request), Some(saved)) if occasion == Occasion::Change => {
-                match edits == saved.edits {
-                    // What is on disk says it all, and has the hash of that.
-                    true => (source.clone(), Edits::default()),
-                    false => {
-                        let text = Some(saved.text.clone());
-                        (Source::Shot(Request { text, ..request.clone() }), edits)
-                    }
-                }
+        let base = saved.as_ref().or(self.open.saved.as_ref());
+        let (from, edits, unread) = match (&source, base) {
+            (Source::Shot(request), Some(base)) if occasion == Occasion::Change => {
+                // As written, it has the hash of the file.
+                let (text, edits) = match edits == base.edits {
+                    true => (base.written.clone(), Edits::none()),
+                    false => (base.text.clone(), edits),
+                };
+                let unread = self.shot_file().filter(|_| saved.is_none());
+                (Source::Shot(Request { text: Some(text), ..request.clone() }), edits, unread)
             }
-            _ => (source.clone(), edits),
+            _ => (source.clone(), edits, None),
         };
-        let request = self.planning.planner.open(from, edits);
-        self.planning.awaited = Some(Awaited { request, source, occasion });
+        let request = self.planning.planner.open(from, edits, unread);
+        self.planning.awaited = Some(Awaited { request, source, occasion, saved });
+    }
+
+    /// The open shot's file, as plans call it.
+    pub(super) fn shot_file(&self) -> Option<PathBuf> {
+        let Source::Shot(request) = &self.open.source else { return None };
+        request.shot.as_deref().map(|shot| joined(Path::new(""), shot))
     }
 
     /// The edits that are in the file already.
     fn saved_edits(&self) -> &Edits {
         static NONE: Edits = Edits::none();
-        let is_read = |awaited: &Awaited| awaited.occasion != Occasion::Change;
-        match &self.open.saved {
+        let saved = match &self.planning.awaited {
             // What is being read counts from what it will be.
-            Some(saved) if !self.planning.awaited.as_ref().is_some_and(is_read) => &saved.edits,
-            _ => &NONE,
-        }
+            Some(awaited) if awaited.occasion != Occasion::Change => None,
+            Some(awaited) => awaited.saved.as_ref().or(self.open.saved.as_ref()),
+            None => self.open.saved.as_ref(),
+        };
+        saved.map_or(&NONE, |saved| &saved.edits)
     }
 
-    /// The edits that are not in the file: at a path, what it was changed to.
+    /// Whether a setting is otherwise than in the file.
     pub fn is_unsaved(&self, path: &str) -> bool {
         self.state.version.edits.get(path) != self.saved_edits().get(path)
     }

@@ -164,3 +164,43 @@ fn a_and_b_are_shown_together_and_change_places() {
     p.until("both", |p| p.shown_of_a().is_some());
     assert_eq!(bits(p.0.shown_of_a().unwrap()), b);
 }
+
+#[test]
+fn a_refused_value_takes_no_other_change_along() {
+    let stage = Stage::set();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(windy(1.0));
+    p.act(Action::Set { path: "view.nu_out".into(), value: json!(0.3) });
+    p.act(Action::Set { path: "view.nu_out".into(), value: json!(-5) });
+    p.wait_for(|p| !p.is_opening());
+    let edits = |p: &Previewer| p.state.version.edits.overrides();
+    assert_eq!(edits(&p.0), ["air.velocity=[1.0,2.0,0.0]", "view.nu_out=0.3"]);
+    p.act(Action::Undo);
+    p.until_opened();
+    assert_eq!(edits(&p.0), ["air.velocity=[1.0,2.0,0.0]"]);
+    p.act(Action::Undo);
+    p.until_opened();
+    assert!(edits(&p.0).is_empty() && !p.0.state.history.can_undo());
+}
+
+#[test]
+fn an_undo_that_cannot_be_planned_can_be_tried_again() {
+    let stage = Stage::set();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(windy(1.0));
+    p.until_opened();
+    let [mesh, away] = ["sheet.obj", "away.obj"].map(|name| stage.folder.path().join(name));
+    std::fs::rename(&mesh, &away).unwrap();
+    for action in [Action::Undo, Action::Undo, Action::Undo] {
+        p.act(action);
+        p.wait_for(|p| !p.is_opening());
+        assert_eq!(p.0.state.version.edits.overrides(), ["air.velocity=[1.0,2.0,0.0]"]);
+    }
+    std::fs::rename(&away, &mesh).unwrap();
+    p.act(Action::Undo);
+    p.wait_for(|p| !p.is_opening());
+    assert!(p.0.state.version.edits.is_empty() && p.0.state.history.can_redo());
+    assert!(p.0.state.messages.is_empty(), "{:?}", p.0.state.messages);
+}

@@ -1,8 +1,9 @@
 use std::sync::Arc;
+use std::time::Instant;
 
 use super::*;
 use crate::app::Preferences;
-use crate::preview::stage::Stage;
+use crate::preview::stage::{self, LAST, Stage};
 use crate::preview::{Action, Look, Previewer, Source, Start, Wake};
 use crate::render::AdapterChoice;
 
@@ -48,6 +49,25 @@ fn the_wait_for_the_end_begins_behind_the_last_step() {
         assert_eq!(step(&mut player, &mut desk, now).unwrap(), Request::Nothing);
     }
     assert!(step(&mut player, &mut desk, 500.1 + PATIENCE).is_err());
+}
+
+#[test]
+fn a_script_waits_as_long_as_frames_come() {
+    let stage = Stage::set();
+    let steps = vec![ScriptStep::WaitForFrames { first: 0, last: LAST + 1 }];
+    let (mut desk, mut player) = (desk(&stage), Player::new(steps));
+    assert_eq!(step(&mut player, &mut desk, 0.0).unwrap(), Request::Nothing);
+    desk.act(Action::Simulate { on: true });
+    let before = desk.work_done();
+    let began = Instant::now();
+    while desk.has_actions() || desk.is_busy() || desk.work_done() == before {
+        desk.advance(0.0);
+        assert!(began.elapsed() < stage::PATIENCE);
+    }
+    for now in [PATIENCE - 1.0, PATIENCE + 500.0, 2.0 * PATIENCE - 1.0] {
+        assert_eq!(step(&mut player, &mut desk, now).unwrap(), Request::Nothing);
+    }
+    assert!(step(&mut player, &mut desk, 2.0 * PATIENCE).is_err());
 }
 
 #[test]

@@ -3,6 +3,8 @@
 use std::fs;
 use std::time::Duration;
 
+use serde_json::json;
+
 use super::super::*;
 use super::stage::{LAST, SHOT, Stage, windy};
 use crate::preview::{Level, Reach};
@@ -115,7 +117,7 @@ fn a_saved_shot_that_somebody_else_has_changed_is_not_written_over() {
     let said = &p.0.state.messages.last().unwrap().text;
     assert!(said.contains("has changed on disk"), "{said}");
     assert_eq!(fs::read_to_string(stage.shot()).unwrap(), theirs);
-    p.act(Action::DismissMessage { index: p.0.state.messages.len() - 1 });
+    p.act(Action::DismissAll);
     // Read again, the change since goes on to hold over what they wrote.
     p.act(Action::Reload);
     p.until_opened();
@@ -197,4 +199,86 @@ fn a_changed_file_is_noticed_and_read_again_when_asked() {
     p.until_opened();
     assert_ne!(p.0.scenery().unwrap().settings_hash, hash);
     assert!(p.0.changed_files().is_empty());
+}
+
+#[test]
+fn what_others_do_to_a_saved_shot_stays_offered_and_changes_nothing_until_it_is_read_again() {
+    let stage = Stage::set();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(windy(2.5));
+    p.act(Action::Save);
+    p.until_opened();
+    let nu_out = |p: &Previewer| p.scenery().unwrap().view_settings[0].nu_out;
+    // Times of files are as fine as the file system has them.
+    std::thread::sleep(Duration::from_millis(20));
+    let theirs = fs::read_to_string(stage.shot()).unwrap();
+    let theirs = theirs.replace("\"nu_out\": 0.2", "\"nu_out\": 0.3");
+    fs::write(stage.shot(), &theirs).unwrap();
+    p.act(windy(4.0));
+    p.until_opened();
+    p.until("the change", |p| p.changed_files() == [stage.shot()]);
+    // To what was saved, and away from it.
+    for action in [Action::Undo, Action::Redo] {
+        p.act(action);
+        p.until_opened();
+        assert_eq!((p.0.changed_files(), nu_out(&p.0)), (&[stage.shot()][..], 0.2));
+    }
+    let is_read = |p: &Previewer| p.state.messages.iter().any(|m| m.text.contains("read again"));
+    p.act(Action::IgnoreChanges);
+    p.act(windy(5.0));
+    p.until_opened();
+    assert!(!is_read(&p.0));
+    p.act(Action::Reload);
+    p.until_opened();
+    assert_eq!((p.0.changed_files().len(), nu_out(&p.0)), (0, 0.3));
+}
+
+#[test]
+fn what_was_undone_since_a_shot_was_saved_is_undone_when_it_is_read_again() {
+    let stage = Stage::set();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(Action::Set { path: "view.nu_out".into(), value: json!(0.5) });
+    p.act(windy(2.5));
+    p.act(Action::Save);
+    p.until_opened();
+    p.act(Action::Undo);
+    p.act(Action::Undo);
+    p.until_opened();
+    p.act(Action::Reload);
+    p.until_opened();
+    assert_eq!(p.0.state.version.edits.overrides(), ["view.nu_out=0.2"]);
+    // The shot said nothing of the wind.
+    let said = &p.0.state.messages.last().unwrap().text;
+    assert_eq!(said, "air.velocity is as the file has it, though that was undone");
+}
+
+#[test]
+fn a_value_refused_before_a_saved_shot_is_read_leaves_it_open() {
+    let stage = Stage::set();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(windy(2.5));
+    p.until_opened();
+    let to = stage.folder.path().join("other.json");
+    p.act(Action::SaveAs { path: to.clone(), overwrite: false });
+    p.act(Action::Set { path: "view.nu_out".into(), value: json!(-5) });
+    p.wait_for(|p| !p.is_opening());
+    assert!(matches!(p.0.source(), Source::Shot(request) if request.shot == Some(to.clone())));
+    assert!(!p.0.has_unsaved_edits());
+    assert_eq!(p.0.state.version.edits.overrides(), ["air.velocity=[2.5,2.0,0.0]"]);
+}
+
+#[test]
+fn why_a_shot_could_not_be_opened_stays_said_when_something_else_is_planned() {
+    let stage = Stage::set();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(Action::Open { path: stage.folder.path().join("nothing.json") });
+    p.until_refused();
+    p.act(windy(2.5));
+    p.wait_for(|p| !p.is_opening());
+    assert!(p.0.opening_failure().is_some_and(|why| why.contains("nothing.json")));
+    assert_eq!(p.0.state.messages.len(), 1);
 }

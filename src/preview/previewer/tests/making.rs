@@ -55,11 +55,16 @@ fn after_a_step_that_failed_the_simulation_goes_on_with_the_next_settings() {
     // It is not tried again until somebody asks.
     p.act(Action::GoTo { frame: 0 });
     assert!(!p.0.is_working());
-    p.act(Action::Simulate { on: true });
+    p.act(Action::Simulate { on: p.0.would_simulate() });
+    assert!(p.0.is_working());
     p.wait_for(|p| p.failed_frame() == Some(5));
+    // Halted or not, it is said no more when other settings are in force.
+    p.act(Action::Simulate { on: false });
     p.act(Action::Undo);
     p.wait_for(|p| !p.is_opening() && p.timeline().is_clean(0, LAST));
     assert_eq!(p.0.failed_frame(), None);
+    assert!(p.0.state.messages.is_empty(), "{:?}", p.0.state.messages);
+    p.act(Action::Simulate { on: p.0.would_simulate() });
     p.act(windy(3.0));
     p.until("frames of other settings", |p| {
         !p.is_opening() && p.timeline().status(LAST) == FrameStatus::Ready
@@ -92,9 +97,20 @@ fn the_same_warning_of_many_frames_is_said_once() {
     }
     let said: Vec<&str> = p.0.state.messages.iter().map(|m| &*m.text).collect();
     assert_eq!(said, ["frame 4: thin", "frame 5: 1 crossings (and 2 frames before it likewise)"]);
-    p.act(Action::DismissMessage { index: 1 });
+    let text = said[1].to_owned();
+    p.act(Action::DismissMessage { text });
     p.0.warn_of_frame(6, "2 crossings");
     assert_eq!(p.0.state.messages.last().unwrap().text, "frame 6: 2 crossings");
+    // Made again, frames do not count those behind them, nor themselves.
+    p.0.warn_of_frame(5, "7 crossings");
+    assert_eq!(p.0.state.messages.last().unwrap().text, "frame 5: 7 crossings");
+    p.0.warn_of_frame(6, "7 crossings");
+    let said = "frame 6: 7 crossings (and a frame before it likewise)";
+    assert_eq!(p.0.state.messages.last().unwrap().text, said);
+    // With other settings they are other frames.
+    p.act(windy(2.0));
+    p.until_opened();
+    assert!(p.0.state.messages.is_empty());
 }
 
 #[test]
