@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::picture::{
     CLOTH_LEAST, SHOT, WITNESS, WITNESS_CLOTH_LEAST, blue, cloth, differing, screenshot,
@@ -134,6 +134,21 @@ fn a_window_destroyed_from_outside_ends_the_program_in_words() {
 
 #[test]
 fn real_keys_reach_the_program_and_closing_ends_it_at_once() {
+    let report = report_after("xdotool search --name Shotsilk windowfocus && xdotool key End");
+    assert_eq!(report["current"], 100, "the key End has not reached the program");
+}
+
+#[test]
+fn a_drag_that_is_over_before_the_next_redraw_is_not_lost() {
+    let drag = "xdotool mousemove 100 662 sleep 0.1 mousedown 1 mousemove 640 662 mouseup 1";
+    let report = report_after(drag);
+    let current = report["current"].as_u64().unwrap();
+    assert!((45..=55).contains(&current), "scrubbed to the middle, it stands at {current}");
+}
+
+/// Where the program stands in its window after something has been done there again and again: the first
+/// times come before the window listens; without a window manager nobody else gives it the focus.
+fn report_after(done: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().join("report.json");
     let script = json!([
@@ -146,23 +161,18 @@ fn real_keys_reach_the_program_and_closing_ends_it_at_once() {
     command.args(["--replay-in", "window"]).env("DISPLAY", &display.name);
     command.env_remove("WAYLAND_DISPLAY");
     let mut program = command.spawn().unwrap();
-    // Pressed again and again, since the first ones come before the window listens; without a window
-    // manager nobody else gives it the focus.
-    let pressed = Command::new("sh")
+    let again = format!("for i in $(seq 1 200); do {done}; sleep 0.1; done");
+    let doing = Command::new("sh")
         .arg("-c")
-        .arg(
-            "for i in $(seq 1 200); do
-                 xdotool search --name Shotsilk windowfocus && xdotool key End; sleep 0.1
-             done",
-        )
+        .arg(again)
         .env("DISPLAY", &display.name)
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn();
-    let mut pressed = pressed.expect("xdotool presses keys: install the package xdotool");
+    let mut doing = doing.expect("xdotool does what a user would: install the package xdotool");
     let status = program.wait().unwrap();
-    let _ = pressed.kill();
-    let _ = pressed.wait();
+    let _ = doing.kill();
+    let _ = doing.wait();
     assert!(status.success(), "{status}");
-    assert_eq!(report(&to)["current"], 100, "the key End has not reached the program");
+    report(&to)
 }
