@@ -26,13 +26,19 @@ pub struct Desk {
     exports: Exports,
     preferences: Preferences,
     pace: Pace,
-    actions: Vec<Action>,
+    wishes: Vec<Wish>,
     /// Work since the last redraw that is not drawing.
     work: Duration,
     title: Option<String>,
     quits: bool,
     /// A size of text and controls that is to hold from the next frame on.
     scale: Option<f32>,
+}
+
+/// What is to be done with the next pass, in order.
+enum Wish {
+    Action(Action),
+    Key(keys::Asked),
 }
 
 /// How far the work of threads is: frames simulated, of the adaptive run, and of the export going on.
@@ -58,7 +64,7 @@ impl Desk {
             exports: Exports::new(adapter, wake),
             preferences,
             pace: Pace::default(),
-            actions: Vec::new(),
+            wishes: Vec::new(),
             work: Duration::ZERO,
             title: None,
             quits: false,
@@ -71,7 +77,11 @@ impl Desk {
     pub fn advance(&mut self, now: f64) -> Option<f64> {
         let began = Instant::now();
         self.previewer.receive();
-        for action in std::mem::take(&mut self.actions) {
+        for wish in std::mem::take(&mut self.wishes) {
+            let action = match wish {
+                Wish::Action(action) => action,
+                Wish::Key(asked) => asked(&self.previewer),
+            };
             self.previewer.act(action);
         }
         self.carry_out();
@@ -84,7 +94,7 @@ impl Desk {
 
     /// Does as if a user had.
     pub fn act(&mut self, action: Action) {
-        self.actions.push(action);
+        self.wishes.push(Wish::Action(action));
     }
 
     /// Lays out everything and collects what the user does with it.
@@ -95,10 +105,8 @@ impl Desk {
         }
         let mut actions = Vec::new();
         let flies = ui.ctx().input(|input| input.pointer.secondary_down());
-        let state = self.previewer.state();
-        let is_asked = state.unsaved.is_some() || state.overwriting.is_some();
-        if !flies && !is_asked && !ui.ctx().egui_wants_keyboard_input() {
-            actions.extend(ui.ctx().input_mut(|input| keys::pressed(input, &self.previewer)));
+        if !flies && self.takes_keys() && !ui.ctx().egui_wants_keyboard_input() {
+            self.wishes.extend(ui.ctx().input_mut(keys::pressed).into_iter().map(Wish::Key));
         }
         self.open_dropped(ui, &mut actions);
         let context = panel::Context {
@@ -117,8 +125,15 @@ impl Desk {
             self.viewports.show(ui, &self.previewer, &mut actions);
             self.panels.show_over_viewports(ui, &context, &mut actions);
         });
-        self.actions.extend(actions);
+        self.wishes.extend(actions.into_iter().map(Wish::Action));
         self.work += began.elapsed();
+    }
+
+    /// Not while a question is open, or a name is asked for.
+    fn takes_keys(&self) -> bool {
+        let state = self.previewer.state();
+        let is_asked = state.unsaved.is_some() || state.overwriting.is_some();
+        !is_asked && !state.look.files_panel && !state.look.save_panel
     }
 
     /// Of several files the first is opened.
@@ -199,7 +214,7 @@ impl Desk {
 
     /// Whether actions wait to be done: then another pass is due at once.
     pub fn has_actions(&self) -> bool {
-        !self.actions.is_empty()
+        !self.wishes.is_empty()
     }
 
     /// Whether anything is being simulated, read, opened or exported.
@@ -275,7 +290,9 @@ impl Desk {
 
     /// What was chosen in the files' panel is open: nothing is left to be done there.
     fn note_name(&mut self, source: &Source) {
-        self.previewer.act(Action::SetPanel { panel: PanelName::Files, open: false });
+        for panel in [PanelName::Files, PanelName::SaveAs] {
+            self.previewer.act(Action::SetPanel { panel, open: false });
+        }
         let name = self.previewer.scenery().map_or_else(String::new, |s| s.name.clone());
         self.title = Some(format!("{name} - Shotsilk"));
         let path: Option<PathBuf> = match source {

@@ -130,6 +130,7 @@ impl Exports {
         match progress.state {
             ExportState::Running => return,
             ExportState::Done(path) => {
+                let path = std::path::absolute(&path).unwrap_or(path);
                 previewer.say(Level::Note, format!("exported {:?}", path.display()));
             }
             ExportState::Failed(why) => {

@@ -1,6 +1,6 @@
 //! The keyboard: one table for what keys do and for the help that lists them.
 
-use egui::{InputState, Key, Modifiers};
+use egui::{Event, InputState, Key, Modifiers};
 
 use crate::preview::{Action, ColourMode, Direction, Layout, Overlay, PanelName, Previewer};
 
@@ -11,7 +11,7 @@ pub struct Shortcut {
     /// As the help shows it.
     pub name: &'static str,
     pub does: &'static str,
-    action: fn(&Previewer) -> Action,
+    action: Asked,
 }
 
 const PLAIN: Modifiers = Modifiers::NONE;
@@ -23,7 +23,7 @@ const fn shortcut(
     key: Key,
     name: &'static str,
     does: &'static str,
-    action: fn(&Previewer) -> Action,
+    action: Asked,
 ) -> Shortcut {
     Shortcut { modifiers, key, name, does, action }
 }
@@ -35,7 +35,7 @@ pub const SHORTCUTS: [Shortcut; 34] = [
         open: true,
     }),
     shortcut(COMMAND.plus(SHIFT), Key::S, "Ctrl Shift S", "save as", |_| Action::SetPanel {
-        panel: PanelName::Files,
+        panel: PanelName::SaveAs,
         open: true,
     }),
     shortcut(COMMAND, Key::S, "Ctrl S", "save the shot", |_| Action::Save),
@@ -99,15 +99,22 @@ pub const SHORTCUTS: [Shortcut; 34] = [
     }),
 ];
 
-/// What the keys pressed ask for. None while a text is being typed.
-pub fn pressed(input: &mut InputState, previewer: &Previewer) -> Vec<Action> {
-    SHORTCUTS
-        .iter()
-        .flat_map(|shortcut| {
-            let times = input.count_and_consume_key(shortcut.modifiers, shortcut.key);
-            std::iter::repeat_with(|| (shortcut.action)(previewer)).take(times)
-        })
-        .collect()
+/// What a key asks for: of the program as it is when its turn comes.
+pub type Asked = fn(&Previewer) -> Action;
+
+/// What the keys pressed ask for, in their order. None while a text is being typed.
+pub fn pressed(input: &mut InputState) -> Vec<Asked> {
+    let mut asked = Vec::new();
+    input.events.retain(|event| {
+        let Event::Key { key, pressed: true, modifiers, .. } = event else { return true };
+        let is_it = |shortcut: &&Shortcut| {
+            shortcut.key == *key && modifiers.matches_logically(shortcut.modifiers)
+        };
+        let found = SHORTCUTS.iter().find(is_it);
+        asked.extend(found.map(|shortcut| shortcut.action));
+        found.is_none()
+    });
+    asked
 }
 
 fn now(previewer: &Previewer) -> u32 {

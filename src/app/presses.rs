@@ -13,14 +13,15 @@ pub struct Presses {
 
 impl Presses {
     /// The events of the next pass, of those that wait and the new ones: a press, the way from it, the
-    /// release and the way from there are for passes of their own.
+    /// release and the way from there are for passes of their own, and what is typed before a press is
+    /// for whom it was typed.
     pub fn take(&mut self, events: Vec<Event>) -> Vec<Event> {
         self.waiting.extend(events);
-        let (mut is_settled, mut has_moved) = (false, false);
+        let (mut is_settled, mut has_moved, mut has_typed) = (false, false, false);
         let end = self.waiting.iter().position(|event| match event {
             Event::PointerButton { pressed: true, .. } => {
                 (is_settled, has_moved) = (true, false);
-                false
+                has_typed
             }
             Event::PointerMoved(_) => {
                 has_moved = true;
@@ -29,6 +30,10 @@ impl Presses {
             Event::PointerButton { pressed: false, .. } => {
                 is_settled = true;
                 has_moved
+            }
+            Event::Text(_) | Event::Key { .. } | Event::Paste(_) => {
+                has_typed = true;
+                false
             }
             _ => false,
         });
@@ -74,8 +79,17 @@ mod tests {
     }
 
     #[test]
+    fn what_is_typed_before_a_press_is_taken_before_it() {
+        let mut presses = Presses::default();
+        let text = Event::Text("a".to_owned());
+        assert_eq!(presses.take(vec![text.clone(), button(1.0, true)]), [text]);
+        assert_eq!(presses.take(Vec::new()), [button(1.0, true)]);
+    }
+
+    #[test]
     fn no_event_is_lost_whatever_the_order() {
-        let events = [button(1.0, false), button(2.0, true), button(3.0, true), moved(4.0)];
+        let text = Event::Text("a".to_owned());
+        let events = [text, button(1.0, false), button(2.0, true), button(3.0, true), moved(4.0)];
         let events: Vec<Event> = events.iter().cycle().take(23).cloned().collect();
         let mut presses = Presses::default();
         let mut taken = presses.take(events.clone());

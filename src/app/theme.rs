@@ -28,7 +28,7 @@ pub fn status_colour(status: FrameStatus) -> Color32 {
 pub fn status_words(status: FrameStatus) -> &'static str {
     match status {
         FrameStatus::Missing => "not simulated yet",
-        FrameStatus::Stale => "made with other settings",
+        FrameStatus::Stale => "made with other settings, or to be made again",
         FrameStatus::Mixed => "these settings, begun from a frame of others",
         FrameStatus::Ready => "as a clean run gives it",
     }
@@ -57,5 +57,7 @@ pub fn dress(context: &Context) {
     context.set_visuals(visuals);
     context.all_styles_mut(|style| {
         style.text_styles.insert(TextStyle::Small, FontId::proportional(SMALL_TEXT));
+        // A drag that misses a slider would mark its name.
+        style.interaction.selectable_labels = false;
     });
 }

@@ -1,14 +1,17 @@
 //! In which settings two versions of a shot differ.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
+
+use super::{Edits, Parameter, value};
 
 /// A setting that two versions have otherwise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// In the shot: `view.nu_out`; `camera` for all that a camera consists of.
-    pub path: String,
+    /// As the panel of settings calls it, or its path in the shot; `camera` for all that a camera
+    /// consists of.
+    pub name: String,
     /// Its value in A and in B, in short.
     pub values: [String; 2],
 }
@@ -17,6 +20,42 @@ pub struct Difference {
 const CAMERA: &str = "camera";
 /// Longer values are left out (characters).
 const VALUE_MAX: usize = 24;
+
+/// What a version says: the shot, and the edits over it.
+#[derive(Clone, Copy)]
+pub struct Said<'a> {
+    /// [`LoadedShot::written`](crate::scene::LoadedShot).
+    pub written: &'a Value,
+    pub edits: &'a Edits,
+}
+
+/// The differences of two versions of one shot in what has been edited, in order of path.
+pub fn edited_differences(a: Said<'_>, b: Said<'_>, parameters: &[Parameter]) -> Vec<Difference> {
+    let paths: BTreeSet<&str> =
+        a.edits.iter().chain(b.edits.iter()).map(|(path, _)| path).collect();
+    let difference = |path: &str| {
+        if path == CAMERA || path.starts_with("viewers") {
+            let is_other = a.edits.get(path) != b.edits.get(path);
+            let values = [String::new(), String::new()];
+            return is_other.then(|| Difference { name: CAMERA.to_owned(), values });
+        }
+        let [of_a, of_b] = [a, b].map(|said| value(said.written, said.edits, path));
+        (of_a != of_b).then(|| Difference {
+            name: name(path, parameters),
+            values: [of_a, of_b].map(|value| in_short(value.as_ref())),
+        })
+    };
+    paths.into_iter().filter_map(difference).collect()
+}
+
+/// As the panel of settings calls it; what stands under its first heading needs no heading.
+fn name(path: &str, parameters: &[Parameter]) -> String {
+    match parameters.iter().find(|parameter| parameter.path == path) {
+        Some(found) if found.group == parameters[0].group => found.label.to_owned(),
+        Some(found) => format!("{}: {}", found.group, found.label),
+        None => path.to_owned(),
+    }
+}
 
 /// The differences of two resolved shots, in order of path. What all garments have in common is said
 /// once, without a garment's number.
@@ -46,7 +85,7 @@ pub fn differences(a: &Value, b: &Value) -> Vec<Difference> {
             }
         }
     }
-    found.into_iter().map(|(path, values)| Difference { path, values }).collect()
+    found.into_iter().map(|(name, values)| Difference { name, values }).collect()
 }
 
 /// A garment's path without which garment it is.
@@ -105,9 +144,47 @@ mod tests {
     use serde_json::json;
 
     use super::*;
+    use crate::preview::ParameterKind;
 
-    fn difference(path: &str, a: &str, b: &str) -> Difference {
-        Difference { path: path.to_owned(), values: [a.to_owned(), b.to_owned()] }
+    fn difference(name: &str, a: &str, b: &str) -> Difference {
+        Difference { name: name.to_owned(), values: [a.to_owned(), b.to_owned()] }
+    }
+
+    #[test]
+    fn what_has_been_edited_is_called_as_in_the_panel() {
+        let parameter = |path: &str, group: &str, label| Parameter {
+            path: path.to_owned(),
+            label,
+            unit: "",
+            kind: ParameterKind::Integer { min: 0, max: 1 },
+            default: None,
+            help: String::new(),
+            group: group.to_owned(),
+        };
+        let parameters = [
+            parameter("view.nu_out", "View", "Detail out of frame"),
+            parameter("fabrics.silk.bend", "Fabric: silk", "Bend stiffness"),
+        ];
+        let written = json!({"view": {"nu_out": 0.1}, "fabrics": {"silk": {"bend": 1}}});
+        let edits = |values: &[(&str, Value)]| {
+            let mut edits = Edits::none();
+            values.iter().for_each(|(path, value)| edits.set(path, value.clone()));
+            edits
+        };
+        let a = edits(&[("view.nu_out", json!(0.2)), ("fps", json!(24))]);
+        let b = edits(&[
+            ("fabrics.silk.bend", json!(3)),
+            ("fps", json!(24)),
+            ("camera", json!({"keys": []})),
+        ]);
+        let [a, b] = [&a, &b].map(|edits| Said { written: &written, edits });
+        let expected = [
+            difference("camera", "", ""),
+            difference("Fabric: silk: Bend stiffness", "1", "3"),
+            difference("Detail out of frame", "0.2", "0.1"),
+        ];
+        assert_eq!(edited_differences(a, b, &parameters), expected);
+        assert_eq!(edited_differences(a, a, &parameters), []);
     }
 
     #[test]

@@ -66,6 +66,7 @@ pub struct Look {
     pub cost_panel: bool,
     pub help_panel: bool,
     pub files_panel: bool,
+    pub save_panel: bool,
     pub export_panel: bool,
 }
 
@@ -84,6 +85,7 @@ impl Default for Look {
             cost_panel: true,
             help_panel: false,
             files_panel: false,
+            save_panel: false,
             export_panel: false,
         }
     }
@@ -107,6 +109,7 @@ impl Look {
             PanelName::Costs => &mut self.cost_panel,
             PanelName::Help => &mut self.help_panel,
             PanelName::Files => &mut self.files_panel,
+            PanelName::SaveAs => &mut self.save_panel,
             PanelName::Export => &mut self.export_panel,
         }
     }
@@ -174,6 +177,7 @@ pub enum PanelName {
     Costs,
     Help,
     Files,
+    SaveAs,
     Export,
 }
 
@@ -190,6 +194,8 @@ pub struct Remembered {
     pub settings_hash: String,
     /// All settings, with nothing left to defaults.
     pub resolved: Arc<Value>,
+    /// What the shot said itself, edits included.
+    pub written: Arc<Value>,
 }
 
 /// A question before files are written over.

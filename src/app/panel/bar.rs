@@ -23,7 +23,7 @@ pub fn show(ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
 }
 
 fn groups(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
-    MenuButton::new("File").ui(ui, |ui| files(ui, wish));
+    MenuButton::new("File").ui(ui, |ui| files(ui, context, wish));
     writing(ui, context, wish);
     ui.separator();
     layouts(ui, context, wish);
@@ -40,7 +40,7 @@ fn menus(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
     MenuButton::new("File").ui(ui, |ui| {
         writing(ui, context, wish);
         ui.separator();
-        files(ui, wish);
+        files(ui, context, wish);
     });
     lasting_menu("Show").ui(ui, |ui| {
         layouts(ui, context, wish);
@@ -58,16 +58,33 @@ fn lasting_menu(name: &'static str) -> MenuButton<'static> {
     MenuButton::new(name).config(stays)
 }
 
-fn files(ui: &mut Ui, wish: &mut impl FnMut(Action)) {
-    let files = || Action::SetPanel { panel: PanelName::Files, open: true };
-    for (name, hint, action) in [
-        ("Open ...", "a shot, an ARCSim scene or a run folder (Ctrl O)", files()),
-        ("Save as ...", "the shot under another name (Ctrl Shift S)", files()),
-        ("Own shot", "the shot that comes with the program", Action::OpenOwn),
-        ("Reload", "all files of the shot, read again", Action::Reload),
-        ("Quit", "Ctrl Q", Action::Quit),
+fn files(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
+    let open = |panel| Action::SetPanel { panel, open: true };
+    let (is_open, is_shot) =
+        (context.previewer.scenery().is_some(), context.previewer.plan().is_some());
+    for (name, hint, is_possible, action) in [
+        (
+            "Open ...",
+            "a shot, an ARCSim scene or a run folder (Ctrl O)",
+            true,
+            open(PanelName::Files),
+        ),
+        (
+            "Save as ...",
+            "the shot under another name (Ctrl Shift S)",
+            is_shot,
+            open(PanelName::SaveAs),
+        ),
+        ("Own shot", "the shot that comes with the program", true, Action::OpenOwn),
+        (
+            "Reload",
+            "all files are read again; changed settings go on to hold",
+            is_open,
+            Action::Reload,
+        ),
+        ("Quit", "Ctrl Q", true, Action::Quit),
     ] {
-        if ui.button(name).on_hover_text(hint).clicked() {
+        if ui.add_enabled(is_possible, Button::new(name)).on_hover_text(hint).clicked() {
             wish(action);
         }
     }
@@ -151,8 +168,9 @@ fn preferences(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)
 fn simulation(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
     let previewer = context.previewer;
     if previewer.plan().is_none() {
-        let words = if previewer.scenery().is_some() { "finished run" } else { "" };
-        ui.label(RichText::new(words).color(theme::FAINT));
+        if previewer.scenery().is_some() {
+            ui.label(RichText::new("finished run").color(theme::FAINT));
+        }
         return;
     }
     let on = previewer.state().simulating;

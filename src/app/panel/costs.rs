@@ -29,6 +29,10 @@ const PLOT_MIN: Vec2 = vec2(64.0, 24.0);
 /// Of the names beside the plot, for stages in two columns (points).
 const LEGEND_WIDTH: f32 = 190.0;
 
+/// A line of the scale with its number takes so much (points), and there are no more than so many.
+const LINE_HEIGHT: f32 = 32.0;
+const LINES_MAX: f32 = 3.0;
+
 /// Of a colour in the legend (points).
 const SWATCH: Vec2 = vec2(9.0, 9.0);
 
@@ -92,6 +96,8 @@ impl CostsPanel {
     ) -> Option<u32> {
         let last = f64::from(previewer.timeline().last());
         let current = f64::from(previewer.state().playback.current);
+        let lines = (size.y / LINE_HEIGHT).clamp(1.0, LINES_MAX);
+        let is_empty = costs.ours.iter().chain(&costs.stale).all(Option::is_none);
         let unit = if self.shows == Quantity::Faces { "" } else { " s" };
         let first_frame = scenery.shown(0) as f64;
         let plot = Plot::new("costs")
@@ -100,6 +106,7 @@ impl CostsPanel {
             .allow_scroll(false)
             .allow_boxed_zoom(false)
             .include_y(0.0)
+            .include_y(if is_empty { 1.0 } else { 0.0 })
             .include_x(0.0)
             .include_x(last)
             .width(size.x)
@@ -112,7 +119,8 @@ impl CostsPanel {
                 format!("{:.*}{unit}", curves::decimals(mark.step_size), mark.value)
             })
             .y_grid_spacer(egui_plot::uniform_grid_spacer(|input| {
-                let step = round_step((input.bounds.1 - input.bounds.0).abs().max(1e-9));
+                let step =
+                    round_step((input.bounds.1 - input.bounds.0).abs().max(1e-9), lines.into());
                 [step, step, step]
             }));
         let response = plot.show(ui, |plot| {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use egui::{DragValue, RichText, TextEdit, Ui};
 
-use super::Context;
+use super::{Context, floating, is_left};
 use crate::app::theme;
 use crate::preview::{Action, Export, ExportKind, PanelName, Viewport};
 
@@ -44,14 +44,14 @@ const KINDS: [(ExportKind, &str, &str); 5] = [
 impl ExportPanel {
     pub fn show(&mut self, ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
         let mut open = true;
-        egui::Window::new("Export")
-            .constrain_to(ui.max_rect())
-            .open(&mut open)
-            .resizable(false)
-            .vscroll(true)
-            .show(ui.ctx(), |ui| {
+        floating(ui, "Export").open(&mut open).resizable(false).vscroll(true).show(
+            ui.ctx(),
+            |ui| {
                 for (kind, name, hint) in KINDS {
-                    ui.radio_value(&mut self.kind, kind, name).on_hover_text(hint);
+                    if ui.radio_value(&mut self.kind, kind, name).on_hover_text(hint).changed() {
+                        // A name for one kind is none for another.
+                        self.to = None;
+                    }
                 }
                 ui.separator();
                 self.how(ui);
@@ -65,10 +65,11 @@ impl ExportPanel {
                 if ui.add_enabled(is_ready, egui::Button::new("Export")).clicked() {
                     actions.push(Action::Export { export: self.export(to.trim()) });
                 }
-                let words = "stills of any frame; all else of frames that a clean run gives";
+                let words = "a still may be of any frame; all else is of clean (green) frames";
                 ui.label(RichText::new(words).small().color(theme::FAINT));
-            });
-        if !open {
+            },
+        );
+        if !open || is_left(ui) {
             actions.push(Action::SetPanel { panel: PanelName::Export, open: false });
         }
     }

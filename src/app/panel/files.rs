@@ -5,18 +5,28 @@ use std::path::{Path, PathBuf};
 
 use egui::{Label, RichText, ScrollArea, TextEdit, Ui};
 
-use super::Context;
+use super::{Context, floating, is_left};
 use crate::app::theme;
 use crate::preview::{Action, Level, PanelName, Source};
 use crate::run::RunReader;
 
 /// See the module.
 pub struct FilesPanel {
+    purpose: Purpose,
     folder: PathBuf,
     /// What is typed or chosen.
     path: String,
     /// Read when the folder was entered or the panel opened.
     entries: Option<Result<Vec<Entry>, String>>,
+    /// It has just been opened: what is typed is a path.
+    is_fresh: bool,
+}
+
+/// What a path is for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    Open,
+    SaveAs,
 }
 
 /// Something in a folder that may be of interest.
@@ -33,57 +43,79 @@ enum Kind {
     Shot,
 }
 
-impl Default for FilesPanel {
-    fn default() -> Self {
-        let folder = std::env::current_dir().unwrap_or_else(|_| PathBuf::from("."));
-        Self { folder, path: String::new(), entries: None }
-    }
-}
-
 impl FilesPanel {
+    pub fn of(purpose: Purpose) -> Self {
+        let folder = std::env::current_dir().unwrap_or_else(|_| PathBuf::from("."));
+        Self { purpose, folder, path: String::new(), entries: None, is_fresh: true }
+    }
+
     pub fn show(&mut self, ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
+        let (title, panel) = match self.purpose {
+            Purpose::Open => ("Open", PanelName::Files),
+            Purpose::SaveAs => ("Save as", PanelName::SaveAs),
+        };
+        if self.is_fresh && self.purpose == Purpose::SaveAs {
+            self.suggest(context);
+        }
         let mut open = true;
-        egui::Window::new("Open and save as")
-            .constrain_to(ui.max_rect())
-            .open(&mut open)
-            .default_width(520.0)
-            .show(ui.ctx(), |ui| {
+        floating(ui, title).open(&mut open).default_width(520.0).show(ui.ctx(), |ui| {
+            if self.purpose == Purpose::Open {
                 recent(ui, context, actions);
-                self.typed(ui, context, actions);
-                self.folder(ui, actions);
-            });
-        if !open {
-            actions.push(Action::SetPanel { panel: PanelName::Files, open: false });
+            }
+            self.typed(ui, context, actions);
+            self.folder(ui, actions);
+        });
+        if !open || is_left(ui) {
+            actions.push(Action::SetPanel { panel, open: false });
         }
     }
 
-    /// The path, what can be done with it, and why it could not be done.
+    /// The shot's own name, where it is, as one to change.
+    fn suggest(&mut self, context: &Context<'_>) {
+        let Source::Shot(request) = context.previewer.source() else { return };
+        let path = request.path();
+        self.path = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if let Ok(path) = std::path::absolute(&path)
+            && let Some(folder) = path.parent().filter(|_| request.shot.is_some())
+        {
+            self.folder = folder.to_owned();
+        }
+    }
+
+    /// The path, what is done with it, and why it could not be done.
     fn typed(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
-        let field = TextEdit::singleline(&mut self.path)
-            .hint_text("path to open, or to save as")
-            .desired_width(f32::INFINITY);
+        let field =
+            TextEdit::singleline(&mut self.path).hint_text("path").desired_width(f32::INFINITY);
         let response = ui.add(field);
+        if std::mem::take(&mut self.is_fresh) {
+            response.request_focus();
+        }
         let entered = response.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
-        ui.horizontal(|ui| {
-            let path = self.folder.join(self.path.trim());
-            let is_typed = !self.path.trim().is_empty();
-            let open = ui.add_enabled(is_typed, egui::Button::new("Open")).clicked();
-            if open || (entered && is_typed) {
-                if is_plain_folder(&path) {
-                    self.enter(&path);
-                } else {
-                    actions.push(Action::Open { path: path.clone() });
-                }
+        let path = self.folder.join(self.path.trim());
+        let is_shot = matches!(context.previewer.source(), Source::Shot(_));
+        let (name, hint, is_possible) = match self.purpose {
+            Purpose::Open => ("Open", "this file or folder", true),
+            Purpose::SaveAs => {
+                ("Save as", "the shot with its changed settings, under this name", is_shot)
             }
-            let is_shot = matches!(context.previewer.source(), Source::Shot(_));
-            let save = ui.add_enabled(is_typed && is_shot, egui::Button::new("Save as"));
-            if save.on_hover_text("the shot with its changed settings, under this name").clicked() {
-                actions.push(Action::SaveAs { path, overwrite: false });
+        };
+        let is_ready = is_possible && !self.path.trim().is_empty();
+        let button = ui.add_enabled(is_ready, egui::Button::new(name)).on_hover_text(hint);
+        if is_ready && (button.clicked() || entered) {
+            if is_plain_folder(&path) {
+                self.enter(&path);
+            } else {
+                actions.push(match self.purpose {
+                    Purpose::Open => Action::Open { path },
+                    Purpose::SaveAs => Action::SaveAs { path, overwrite: false },
+                });
             }
-        });
+        }
         if context.previewer.is_opening() {
             ui.label("reading ...");
-        } else if let Some(why) = context.previewer.opening_failure() {
+        } else if let Some(why) =
+            context.previewer.opening_failure().filter(|_| self.purpose == Purpose::Open)
+        {
             ui.colored_label(theme::level_colour(Level::Error), why);
         }
     }
@@ -109,11 +141,13 @@ impl FilesPanel {
                         if !ui.selectable_label(false, name).clicked() {
                             continue;
                         }
-                        if entry.kind == Kind::Folder {
-                            next = Some(entry.path.clone());
-                        } else {
-                            self.path = entry.name.clone();
-                            actions.push(Action::Open { path: entry.path.clone() });
+                        match (entry.kind, self.purpose) {
+                            (Kind::Folder, _) => next = Some(entry.path.clone()),
+                            (_, Purpose::SaveAs) => self.path = entry.name.clone(),
+                            (_, Purpose::Open) => {
+                                self.path = entry.name.clone();
+                                actions.push(Action::Open { path: entry.path.clone() });
+                            }
                         }
                     }
                 });
@@ -126,13 +160,16 @@ impl FilesPanel {
 
     fn enter(&mut self, folder: &Path) {
         self.folder = folder.to_owned();
-        self.path.clear();
+        if self.purpose == Purpose::Open {
+            self.path.clear();
+        }
         self.entries = None;
     }
 
     /// The panel is not shown: who knows what the folder holds when it is again.
     pub fn rest(&mut self) {
         self.entries = None;
+        self.is_fresh = true;
     }
 }
 

@@ -2,6 +2,7 @@
 
 use egui::Ui;
 
+use super::{floating, is_left};
 use crate::app::keys::SHORTCUTS;
 use crate::preview::{Action, PanelName};
 
@@ -20,26 +21,21 @@ const POINTER: [(&str, &str); 9] = [
 
 pub fn show(ui: &Ui, actions: &mut Vec<Action>) {
     let mut open = true;
-    egui::Window::new("Help")
-        .constrain_to(ui.max_rect())
-        .open(&mut open)
-        .vscroll(true)
-        .default_height(460.0)
-        .show(ui.ctx(), |ui| {
-            egui::Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
-                for shortcut in &SHORTCUTS {
-                    ui.strong(shortcut.name);
-                    ui.label(shortcut.does);
-                    ui.end_row();
-                }
-                for (how, does) in POINTER {
-                    ui.strong(how);
-                    ui.label(does);
-                    ui.end_row();
-                }
-            });
+    floating(ui, "Help").open(&mut open).vscroll(true).default_height(460.0).show(ui.ctx(), |ui| {
+        egui::Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
+            for shortcut in &SHORTCUTS {
+                ui.strong(shortcut.name);
+                ui.label(shortcut.does);
+                ui.end_row();
+            }
+            for (how, does) in POINTER {
+                ui.strong(how);
+                ui.label(does);
+                ui.end_row();
+            }
         });
-    if !open {
+    });
+    if !open || is_left(ui) {
         actions.push(Action::SetPanel { panel: PanelName::Help, open: false });
     }
 }

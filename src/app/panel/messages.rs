@@ -5,7 +5,7 @@ use egui::{Align2, RichText, Ui, vec2};
 use super::Context;
 use crate::app::export::ExportState;
 use crate::app::theme;
-use crate::preview::{Action, Level};
+use crate::preview::{Action, Level, Source};
 
 /// Messages shown at a time; the others wait behind them.
 const SHOWN: usize = 5;
@@ -17,8 +17,8 @@ const WIDTH_MAX: f32 = 460.0;
 
 pub fn show(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
     let area = egui::Area::new(egui::Id::unique("messages"))
-        // Whatever else is opened lies over them.
-        .order(egui::Order::Background)
+        // What is opened stands elsewhere; what was moved over them must not hide them.
+        .order(egui::Order::Foreground)
         .pivot(Align2::LEFT_BOTTOM)
         .constrain_to(ui.max_rect())
         .fixed_pos(ui.max_rect().left_bottom() + vec2(10.0, -ABOVE_CAPTIONS));
@@ -50,7 +50,7 @@ fn said(ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
                 actions.push(Action::DismissMessage { text: message.text.clone() });
             }
             let text = RichText::new(&message.text).color(theme::level_colour(message.level));
-            ui.add(egui::Label::new(text).wrap());
+            ui.add(egui::Label::new(text).wrap().selectable(true));
         });
     }
 }
@@ -100,11 +100,18 @@ fn export(ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
 
 /// Before changed settings are lost.
 fn unsaved(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
-    if context.previewer.state().unsaved.is_none() {
-        return;
-    }
-    let is_left = question(ui, "unsaved", "The changed settings are not saved.", |ui| {
-        if ui.button("Save first").clicked() {
+    let previewer = context.previewer;
+    let Some(next) = &previewer.state().unsaved else { return };
+    let name = previewer.scenery().map_or("the shot", |scenery| &scenery.name);
+    let what = match next {
+        Action::Quit => "Quitting",
+        _ => "Opening something else",
+    };
+    let words = format!("{what} gives up the changed settings of {name}, which are not saved.");
+    let can_save = matches!(previewer.source(), Source::Shot(request) if request.shot.is_some());
+    let is_left = question(ui, "unsaved", &words, |ui| {
+        let save = ui.add_enabled(can_save, egui::Button::new("Save first"));
+        if save.on_disabled_hover_text("Save as first, under a name").clicked() {
             actions.extend([Action::GiveUpEdits { yes: false }, Action::Save]);
         }
         if ui.button("Give them up").clicked() {

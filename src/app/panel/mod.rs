@@ -34,13 +34,26 @@ pub struct Context<'a> {
 }
 
 /// What panels remember of themselves: texts half typed, pages open.
-#[derive(Default)]
 pub struct Panels {
     files: files::FilesPanel,
+    save: files::FilesPanel,
     export: export::ExportPanel,
     parameters: parameters::ParametersPanel,
     camera: camera::CameraPanel,
     costs: costs::CostsPanel,
+}
+
+impl Default for Panels {
+    fn default() -> Self {
+        Self {
+            files: files::FilesPanel::of(files::Purpose::Open),
+            save: files::FilesPanel::of(files::Purpose::SaveAs),
+            export: Default::default(),
+            parameters: Default::default(),
+            camera: Default::default(),
+            costs: Default::default(),
+        }
+    }
 }
 
 impl Panels {
@@ -52,15 +65,20 @@ impl Panels {
         egui::Panel::bottom("timeline")
             .exact_size(timeline::HEIGHT)
             .show(ui, |ui| timeline::show(ui, context, actions));
+        // What a small window made of their sizes does not stay when there is room again.
+        let [costs, parameters] = match room.has_both() {
+            true => ["costs", "parameters"],
+            false => ["low costs", "narrow parameters"],
+        };
         if room.shows(PanelName::Costs, &look) {
-            egui::Panel::bottom("costs")
+            egui::Panel::bottom(costs)
                 .default_size(130.0)
                 .size_range(room.costs_heights())
                 .resizable(true)
                 .show(ui, |ui| self.costs.show(ui, context, actions));
         }
         if room.shows(PanelName::Parameters, &look) {
-            egui::Panel::right("parameters")
+            egui::Panel::right(parameters)
                 .default_size(300.0)
                 .size_range(room.parameters_widths())
                 .resizable(true)
@@ -91,8 +109,26 @@ impl Panels {
         } else {
             self.files.rest();
         }
+        if look.save_panel {
+            self.save.show(ui, context, actions);
+        } else {
+            self.save.rest();
+        }
         if look.export_panel {
             self.export.show(ui, context, actions);
         }
     }
+}
+
+/// A window over the viewports, to begin with beside where messages stand.
+fn floating(ui: &Ui, title: &'static str) -> egui::Window<'static> {
+    let views = ui.max_rect();
+    egui::Window::new(title)
+        .constrain_to(views)
+        .default_pos(views.center_top() + egui::vec2(0.0, 8.0))
+}
+
+/// Whether what is open is left by Escape.
+fn is_left(ui: &Ui) -> bool {
+    ui.input(|input| input.key_pressed(egui::Key::Escape))
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{CollapsingHeader, DragValue, Id, RichText, Slider, Ui};
+use egui::{CollapsingHeader, DragValue, Id, Label, RichText, Slider, Ui};
 use serde_json::{Value, json};
 
 use super::Context;
@@ -13,6 +13,8 @@ use crate::preview::{
 
 /// Indentation, and a slider's number with its unit (points).
 const BESIDE_SLIDERS: f32 = 125.0;
+/// (points).
+const RESET_WIDTH: f32 = 48.0;
 /// (points).
 const SLIDER_MIN: f32 = 40.0;
 
@@ -40,7 +42,7 @@ impl ParametersPanel {
         ui.horizontal(|ui| {
             ui.strong("Settings");
             let reset = ui.add_enabled(has_edits, egui::Button::new("Reset all").small());
-            if reset.on_hover_text("back to what the file says").clicked() {
+            if reset.on_hover_text("back to what the file says, camera and all").clicked() {
                 actions.push(Action::ResetAll);
             }
         });
@@ -89,12 +91,20 @@ fn row(
     let held = dragged.as_ref().filter(|(path, _)| *path == parameter.path);
     let mut now = held.map_or_else(|| in_force.clone(), |(_, value)| value.clone());
     let is_edited = previewer.is_unsaved(&parameter.path);
-    let label = ui.horizontal_wrapped(|ui| {
+    let label = ui.horizontal(|ui| {
         let mut label = RichText::new(parameter.label);
         if is_edited {
             label = label.color(theme::ACCENT);
         }
-        let label = ui.label(label).on_hover_text(hint(parameter));
+        // On one line with its button, so that nothing below moves when there is one.
+        let room = ui.available_width() - if is_edited { RESET_WIDTH } else { 0.0 };
+        let label = ui
+            .scope(|ui| {
+                ui.set_max_width(room.max(SLIDER_MIN));
+                ui.add(Label::new(label).truncate())
+            })
+            .inner
+            .on_hover_text(hint(parameter));
         if is_edited
             && ui.small_button("reset").on_hover_text("back to what the file says").clicked()
         {
@@ -132,6 +142,9 @@ fn hint(parameter: &Parameter) -> String {
             if value.is_null() { "off".to_owned() } else { value.to_string() }
         )
     });
+    let is_of_garment =
+        parameter.path.starts_with("garments.") && parameter.path.contains(".view.");
+    let default = if is_of_garment { "\ndefault: as under View".to_owned() } else { default };
     format!("{}\n\nusual range {range}{unit}{default}\n{}", parameter.help, parameter.path)
 }
 

@@ -46,7 +46,8 @@ impl Room {
         }
     }
 
-    fn has_both(&self) -> bool {
+    /// Whether there is room for settings and costs.
+    pub fn has_both(&self) -> bool {
         self.size.x >= BOTH_PANELS.x && self.size.y >= BOTH_PANELS.y
     }
 

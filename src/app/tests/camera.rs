@@ -34,6 +34,18 @@ fn a_key_is_added_made_a_cut_and_deleted() {
 }
 
 #[test]
+fn a_camera_that_is_as_the_file_has_it_again_is_no_change() {
+    let mut seat = Seat::take();
+    seat.act(Action::GoTo { frame: 6 });
+    for name in ["Add key", "Delete key"] {
+        seat.click(name);
+        seat.until_planned();
+    }
+    assert!(!seat.previewer().has_unsaved_edits());
+    assert!(seat.is_offered("Undo"));
+}
+
+#[test]
 fn a_lens_changes_for_the_whole_path_or_at_a_frame_which_gets_a_key() {
     let mut seat = Seat::take();
     let lens = |seat: &Seat| [0.0, 6.0, 8.0].map(|frame| path(seat).lens(frame));

@@ -33,6 +33,26 @@ fn a_path_that_cannot_be_opened_stays_with_the_reason_beside_it() {
 }
 
 #[test]
+fn what_is_typed_into_a_window_just_opened_is_a_path_and_no_key() {
+    let mut seat = Seat::take();
+    for panel in [FILES, PanelName::SaveAs] {
+        seat.act(Action::SetPanel { panel, open: true });
+        assert!(seat.text().is_focused());
+        // Where nothing is focused keys are none of the shot's either.
+        seat.click_at(seat.views().left_bottom() + egui::vec2(20.0, -60.0));
+        for key in [egui::Key::K, egui::Key::I, egui::Key::ArrowRight] {
+            seat.press(key);
+        }
+        assert_eq!(seat.current(), 0);
+        assert!(!seat.previewer().has_unsaved_edits());
+        seat.press(egui::Key::Escape);
+        assert!(!*seat.previewer().state().look.clone().panel_mut(panel));
+    }
+    seat.press(egui::Key::ArrowRight);
+    assert_eq!(seat.current(), 1);
+}
+
+#[test]
 fn what_has_been_opened_closes_the_panel() {
     let mut seat = Seat::take();
     seat.act(Action::SetPanel { panel: FILES, open: true });
@@ -51,8 +71,16 @@ fn what_has_been_saved_is_listed_when_the_panel_is_opened_again() {
     type_path(&mut seat, &folder);
     seat.press(egui::Key::Enter);
     assert!(seat.says("shot.json") && !seat.says("other.json"));
-    type_path(&mut seat, "other.json");
-    seat.click("Save as");
+    seat.act(Action::SetPanel { panel: FILES, open: false });
+    seat.act(Action::SetPanel { panel: PanelName::SaveAs, open: true });
+    // The shot's own name is there to be changed.
+    assert_eq!(seat.text().value().as_deref(), Some("shot.json"));
+    for _ in 0.."shot.json".len() {
+        seat.press(egui::Key::Backspace);
+    }
+    seat.text().type_text("other.json");
+    seat.settle();
+    seat.press(egui::Key::Enter);
     seat.until("the saved shot", |p| !p.is_opening() && !p.state().look.files_panel);
     seat.act(Action::SetPanel { panel: FILES, open: true });
     // In the folder, and among what was open before.

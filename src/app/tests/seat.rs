@@ -179,6 +179,12 @@ impl Seat {
         self.settle();
     }
 
+    /// Keys that come within one pass.
+    pub fn press_all(&mut self, keys: &[egui::Key]) {
+        keys.iter().for_each(|&key| self.desk.key_press(key));
+        self.settle();
+    }
+
     /// The button, or what can be selected, of a name.
     pub fn click(&mut self, name: &str) {
         self.desk.get_by_role_and_label(Role::Button, name).click();

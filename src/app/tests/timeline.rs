@@ -64,3 +64,11 @@ fn keys_do_the_same() {
     let Playback { current, looping, last, .. } = playback(&seat);
     assert_eq!((current, looping, last), (0, false, LAST));
 }
+
+#[test]
+fn keys_of_one_pass_are_done_in_their_order() {
+    let mut seat = Seat::take();
+    seat.press_all(&[Key::ArrowRight, Key::ArrowRight, Key::I, Key::ArrowRight, Key::O]);
+    let Playback { current, first, last, .. } = playback(&seat);
+    assert_eq!((first, last, current), (2, 3, 3));
+}

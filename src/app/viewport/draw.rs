@@ -147,6 +147,7 @@ impl Viewports {
             cost_panel: false,
             help_panel: false,
             files_panel: false,
+            save_panel: false,
             export_panel: false,
             legend: false,
             safe_areas: false,

@@ -52,7 +52,7 @@ fn words(name: &str, [hash, other]: [&str; 2], side: usize, found: &[Difference]
         lines.push(words.to_owned());
     }
     let listed = found.iter().take(LISTED_MAX);
-    lines.extend(listed.map(|found| format!("{} {}", found.path, found.values[side])));
+    lines.extend(listed.map(|found| format!("{} {}", found.name, found.values[side])));
     if found.len() > LISTED_MAX {
         lines.push(format!("and {} more", found.len() - LISTED_MAX));
     }
@@ -73,7 +73,8 @@ fn note(ui: &Ui, rect: Rect, x: f32, side: usize, lines: Vec<String>) {
         _ => Rect::from_min_max(pos2(x, rect.top()), rect.max),
     });
     let text = painter.layout_job(job);
-    let left = if side == 0 { x - GAP - text.size().x } else { x + GAP };
+    let beside = if side == 0 { x - GAP - text.size().x } else { x + GAP };
+    let left = beside.max(rect.left() + GAP);
     // The legend is at the top.
     let at = pos2(left, rect.bottom() - GAP - text.size().y);
     let plate = Rect::from_min_size(at, text.size()).expand2(vec2(4.0, 2.0));

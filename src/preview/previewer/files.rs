@@ -70,6 +70,7 @@ impl Previewer {
     /// since then stays undone where the shot said something before.
     fn reload(&mut self) {
         let (source, saved) = (self.open.source.clone(), self.open.saved.as_ref());
+        self.state.say(Level::Note, "all files are read again; changed settings go on to hold");
         let Some(saved) = saved else { return self.ask(source, Occasion::Change, None) };
         let now = self.state.version.edits.clone();
         let mut edits = now.beyond(&saved.edits);
@@ -95,7 +96,10 @@ impl Previewer {
                 self.state.say(Level::Note, format!("saved {:?}", request.path().display()));
                 self.ask(Source::Shot(request), Occasion::Change, Some(saved));
             }
-            Err(why) => self.state.say(Level::Error, why),
+            Err(why) => {
+                self.state.say(Level::Error, why.clone());
+                self.planning.refusals.push(why);
+            }
         }
     }
 

@@ -103,6 +103,7 @@ impl Previewer {
                 refusals: Vec::new(),
                 proved: Standing::default(),
                 tried: Vec::new(),
+                unedited_camera: None,
                 deferred: VecDeque::new(),
             },
             frames: Frames {
@@ -330,6 +331,12 @@ impl Previewer {
     /// The frame that could not be simulated.
     pub fn failed_frame(&self) -> Option<u32> {
         self.making.failure.as_ref().map(|failure| failure.frame)
+    }
+
+    /// Whether frames are wanted that nobody has made, and nobody is to make.
+    pub fn is_halted(&self) -> bool {
+        let is_wanted = || self.frames.timeline.first_gap(&self.frames.store).is_some();
+        self.open.plan.is_some() && !self.state.simulating && is_wanted()
     }
 
     /// Whether who simulates or halts simulates: where a frame could not be, that is tried again.

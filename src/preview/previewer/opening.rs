@@ -60,6 +60,9 @@ impl Previewer {
             self.state.history = Default::default();
             (self.state.a, self.state.wipe) = (None, None);
         }
+        if self.state.version.edits.iter().all(|(path, _)| !is_camera(path)) {
+            self.planning.unedited_camera = None;
+        }
         self.open.saved = saved.or(self.open.saved.take());
         self.open.source = source.clone();
         if occasion == Occasion::Opening {
@@ -158,6 +161,10 @@ impl Previewer {
         self.take_back_warnings();
         self.forget_failure();
     }
+}
+
+fn is_camera(path: &str) -> bool {
+    path == "camera" || path.starts_with("viewers")
 }
 
 /// Which frames a run does not have between its first and its last, in words.

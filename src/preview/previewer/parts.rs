@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use serde_json::Value;
+
 #[cfg(doc)]
 use super::Previewer;
 use super::time::Shown;
@@ -58,6 +60,8 @@ pub(super) struct Planning {
     pub proved: Standing,
     /// What has been changed to since, in order; a change that cannot be takes none of the others along.
     pub tried: Vec<Standing>,
+    /// The shot camera as the shot has it, once it has been edited: one that is so again is no edit.
+    pub unedited_camera: Option<Value>,
     /// What has to wait for a plan, and where the user was when asking for it.
     pub deferred: VecDeque<Deferred>,
 }

@@ -12,7 +12,7 @@ use crate::preview::history::Version;
 use crate::preview::plan::Anchor;
 use crate::preview::planner::Source;
 use crate::preview::state::{Level, Remembered};
-use crate::preview::{Difference, Edits, differences};
+use crate::preview::{Difference, Edits, Said, differences, edited_differences, parameters};
 use crate::request::Request;
 use crate::scene::joined;
 
@@ -80,7 +80,10 @@ impl Previewer {
     /// The camera is edited: what it reaches is known from the frames' keys, so nothing need be held.
     pub(super) fn edit_camera(&mut self, path: &str, camera: serde_json::Value) {
         let mut version = self.state.version.clone();
-        version.edits.set(path, camera);
+        match self.planning.unedited_camera.as_ref() == Some(&camera) {
+            true => version.edits.reset(path),
+            false => version.edits.set(path, camera),
+        }
         self.change(version);
     }
 
@@ -188,11 +191,19 @@ impl Previewer {
 
     /// Finds in what A and B differ, after either has changed.
     pub(super) fn compare_settings(&mut self) {
-        let found = match (&self.state.a, self.resolved()) {
-            (Some(a), Some(b)) => differences(&a.resolved, b),
-            _ => Vec::new(),
+        let Some(a) = &self.state.a else { return self.showing.differences.clear() };
+        let edited = self.open.plan.as_ref().map(|plan| {
+            let requested = &plan.requested;
+            let of_a = Said { written: &a.written, edits: &a.version.edits };
+            let of_b = Said { written: &requested.written, edits: &self.state.version.edits };
+            edited_differences(of_a, of_b, &parameters(&requested.written, &requested.scene))
+        });
+        let edited = edited.unwrap_or_default();
+        self.showing.differences = match self.resolved() {
+            // Files may have been read again, with other things in them.
+            Some(b) if edited.is_empty() => differences(&a.resolved, b),
+            _ => edited,
         };
-        self.showing.differences = found;
     }
 
     /// The settings in which B, what is in force, differs from A; none without an A.
@@ -209,6 +220,9 @@ impl Previewer {
             anticipation: scenery.map_or(0.0, |scenery| scenery.anticipation()),
             settings_hash: scenery.map_or_else(String::new, |s| s.settings_hash.clone()),
             resolved: Arc::new(self.resolved().cloned().unwrap_or_default()),
+            written: Arc::new(
+                self.open.plan.as_ref().map(|p| p.requested.written.clone()).unwrap_or_default(),
+            ),
         });
         self.compare_settings();
         self.showing.of_a = None;

@@ -156,8 +156,8 @@ fn a_and_b_are_shown_together_and_change_places() {
     assert_eq!(bits(p.0.shown_of_a().unwrap()), a);
     let b = bits(&p.frame(10));
     assert_ne!(a, b);
-    let differ: Vec<&str> = p.0.differences().iter().map(|found| &*found.path).collect();
-    assert_eq!(differ, ["air.velocity", "view.anticipation_frames"]);
+    let differ: Vec<&str> = p.0.differences().iter().map(|found| &*found.name).collect();
+    assert_eq!(differ, ["Time and air: Wind", "Look ahead"]);
     p.act(Action::SwapAAndB);
     p.until("the change of places", |p| !p.is_opening() && p.timeline().is_clean(0, LAST));
     assert_eq!(bits(&p.frame(10)), a);

@@ -94,10 +94,10 @@ pub fn stages(costs: &[Option<Cost>], strength: f32) -> Vec<BarChart> {
         .collect()
 }
 
-/// Between lines of a scale over a span: 1, 2 or 5 times a power of ten, so that there are three at most
-/// and their numbers have room in a low panel.
-pub fn round_step(span: f64) -> f64 {
-    let least = span / 3.0;
+/// Between lines of a scale over a span: 1, 2 or 5 times a power of ten, so that there are no more than
+/// have room for their numbers.
+pub fn round_step(span: f64, lines: f64) -> f64 {
+    let least = span / lines;
     let decade = 10f64.powf(least.log10().floor());
     let steps = [1.0, 2.0, 5.0].map(|factor| factor * decade);
     steps.into_iter().find(|&step| step >= least).unwrap_or(10.0 * decade)
@@ -115,13 +115,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_scale_has_one_to_three_round_steps() {
+    fn a_scale_has_round_steps_and_no_more_than_it_should() {
         for (span, step) in [(3.0, 1.0), (3.1, 2.0), (4300.0, 2000.0), (0.07, 0.05), (29.0, 10.0)] {
-            assert!((round_step(span) / step - 1.0).abs() < 1e-9, "{span}: {}", round_step(span));
+            let found = round_step(span, 3.0);
+            assert!((found / step - 1.0).abs() < 1e-9, "{span}: {found}");
         }
         for k in 1..2000 {
             let span = 1e-3 * 1.01f64.powi(k);
-            let lines = span / round_step(span);
+            let lines = span / round_step(span, 3.0);
             assert!((1.2..=3.0 + 1e-9).contains(&lines), "{span}: {lines}");
         }
     }

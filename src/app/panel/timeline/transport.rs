@@ -90,6 +90,8 @@ fn working(ui: &mut Ui, context: &Context<'_>, scenery: &Scenery) {
         } else if let Some(frame) = previewer.failed_frame() {
             let words = format!("stopped before {}", scenery.shown(frame));
             ui.colored_label(theme::level_colour(Level::Error), words);
+        } else if previewer.is_halted() {
+            ui.label("halted");
         }
     });
 }

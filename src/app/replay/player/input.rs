@@ -33,17 +33,25 @@ pub(super) fn drag(from: [f32; 2], to: [f32; 2], with: Button) -> Vec<Vec<Event>
     inputs
 }
 
+/// A key by egui's name, after `Ctrl+`, `Shift+` and `Alt+` as they are held.
+///
 /// # Errors
 /// If egui has no key of that name.
 pub(super) fn press(name: &str) -> Result<Vec<Vec<Event>>> {
-    let Some(key) = Key::from_name(name) else { bail!("{name:?} is no key") };
-    let event = |pressed| Event::Key {
-        key,
-        physical_key: None,
-        pressed,
-        repeat: false,
-        modifiers: Modifiers::NONE,
-    };
+    let mut modifiers = Modifiers::NONE;
+    let mut rest = name;
+    while let Some((held, key)) = rest.split_once('+') {
+        modifiers = modifiers
+            | match held {
+                "Ctrl" => Modifiers::CTRL | Modifiers::COMMAND,
+                "Shift" => Modifiers::SHIFT,
+                "Alt" => Modifiers::ALT,
+                _ => break,
+            };
+        rest = key;
+    }
+    let Some(key) = Key::from_name(rest) else { bail!("{name:?} is no key") };
+    let event = |pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
     Ok(vec![vec![event(true)], vec![event(false)]])
 }
 
