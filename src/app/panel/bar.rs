@@ -227,7 +227,8 @@ fn versions(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
         wish(Action::Redo);
     }
     let hint = "remember frames and settings as A, to compare what comes with";
-    if ui.button("Keep as A").on_hover_text(hint).clicked() {
+    let keep = ui.add_enabled(context.previewer.scenery().is_some(), Button::new("Keep as A"));
+    if keep.on_hover_text(hint).clicked() {
         wish(Action::KeepAsA);
     }
     // Without an A they are there and cannot be used, so that nothing jumps when there is one.

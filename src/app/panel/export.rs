@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use egui::{DragValue, RichText, TextEdit, Ui};
+use egui::{DragValue, RichText, ScrollArea, TextEdit, Ui};
 
 use super::{Context, floating, is_left};
 use crate::app::theme;
@@ -33,6 +33,9 @@ impl Default for ExportPanel {
     }
 }
 
+/// Of the window's title, with what is around it (points).
+const TITLE_HEIGHT: f32 = 60.0;
+
 const KINDS: [(ExportKind, &str, &str); 5] = [
     (ExportKind::Still, "Still", "this frame as PNG"),
     (ExportKind::Sheet, "Contact sheet", "frames of the range, both views, on one page"),
@@ -44,34 +47,45 @@ const KINDS: [(ExportKind, &str, &str); 5] = [
 impl ExportPanel {
     pub fn show(&mut self, ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
         let mut open = true;
-        floating(ui, "Export").open(&mut open).resizable(false).vscroll(true).show(
-            ui.ctx(),
-            |ui| {
-                for (kind, name, hint) in KINDS {
-                    if ui.radio_value(&mut self.kind, kind, name).on_hover_text(hint).changed() {
-                        // A name for one kind is none for another.
-                        self.to = None;
-                    }
-                }
+        // Of the views' height, with a title above it.
+        let height = (ui.max_rect().height() - TITLE_HEIGHT).max(TITLE_HEIGHT);
+        floating(ui, "Export").open(&mut open).resizable(false).show(ui.ctx(), |ui| {
+            ScrollArea::vertical().max_height(height).show(ui, |ui| {
+                self.kinds(ui);
                 ui.separator();
                 self.how(ui);
-                let mut to = self.to.clone().unwrap_or_else(|| self.usual_name(context));
-                let label = ui.label("to");
-                let field = ui.add(TextEdit::singleline(&mut to).desired_width(320.0));
-                if field.labelled_by(label.id).changed() {
-                    self.to = Some(to.clone());
-                }
-                let is_ready = !context.exports.is_running() && !to.trim().is_empty();
-                if ui.add_enabled(is_ready, egui::Button::new("Export")).clicked() {
-                    actions.push(Action::Export { export: self.export(to.trim()) });
-                }
-                let words = "a still may be of any frame; all else is of clean (green) frames";
-                ui.label(RichText::new(words).small().color(theme::FAINT));
-            },
-        );
+                self.where_to(ui, context, actions);
+            });
+        });
         if !open || is_left(ui) {
             actions.push(Action::SetPanel { panel: PanelName::Export, open: false });
         }
+    }
+
+    fn kinds(&mut self, ui: &mut Ui) {
+        for (kind, name, hint) in KINDS {
+            if ui.radio_value(&mut self.kind, kind, name).on_hover_text(hint).changed() {
+                // A name for one kind is none for another.
+                self.to = None;
+            }
+        }
+    }
+
+    fn where_to(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
+        let mut to = self.to.clone().unwrap_or_else(|| self.usual_name(context));
+        let label = ui.label("to");
+        let field = ui.add(TextEdit::singleline(&mut to).desired_width(320.0));
+        if field.labelled_by(label.id).changed() {
+            self.to = Some(to.clone());
+        }
+        let is_ready = context.previewer.scenery().is_some()
+            && !context.exports.is_running()
+            && !to.trim().is_empty();
+        if ui.add_enabled(is_ready, egui::Button::new("Export")).clicked() {
+            actions.push(Action::Export { export: self.export(to.trim()) });
+        }
+        let words = "a still may be of any frame; all else is of clean (green) frames";
+        ui.label(RichText::new(words).small().color(theme::FAINT));
     }
 
     fn export(&self, to: &str) -> Export {

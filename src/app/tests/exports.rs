@@ -7,7 +7,7 @@ use std::time::Instant;
 use egui::accesskit::Role;
 use glam::DVec3;
 
-use super::seat::Seat;
+use super::seat::{Seat, Setting};
 use crate::preview::stage::{LAST, PATIENCE};
 use crate::preview::{Action, Export, ExportKind, PanelName, Viewport};
 
@@ -127,4 +127,31 @@ fn views_on_a_contact_sheet_are_as_wide_as_was_asked_for() {
     let messages = &seat.previewer().state().messages;
     assert!(messages.iter().any(|m| m.text.contains("400 million are possible")), "{messages:?}");
     assert!(!unwritten.exists());
+}
+
+#[test]
+fn every_kind_is_exported_by_its_button_to_what_is_typed() {
+    // Where the bar's own button of that name is in a menu.
+    let size = [640.0, 360.0];
+    let mut seat = Seat::take_with(Setting { simulating: true, size, ..Setting::default() });
+    seat.until("all frames", |p| p.timeline().is_clean(0, LAST) && !p.is_working());
+    seat.act(Action::SetWitness { eye: DVec3::new(2.0, -2.0, 1.0), target: DVec3::ZERO });
+    seat.act(Action::SetPanel { panel: PanelName::Export, open: true });
+    for (kind, name, made) in [
+        ("Still", "a.png", "a.png"),
+        ("Contact sheet", "b.png", "b.png"),
+        ("PNG sequence", "c", "c/0012.shot.png"),
+        ("Run folder", "d", "d/frames/000012.sfr"),
+    ] {
+        let folder = seat.stage.folder.path().join("new");
+        let to = folder.join(name);
+        seat.node(Role::RadioButton, kind).click_accesskit();
+        seat.settle();
+        seat.type_over(&to.display().to_string());
+        seat.node(Role::Button, "Export").click_accesskit();
+        seat.settle();
+        wait(&mut seat);
+        let messages = &seat.previewer().state().messages;
+        assert!(folder.join(made).exists(), "{kind}: {messages:?}");
+    }
 }

@@ -75,11 +75,7 @@ fn what_has_been_saved_is_listed_when_the_panel_is_opened_again() {
     seat.act(Action::SetPanel { panel: PanelName::SaveAs, open: true });
     // The shot's own name is there to be changed.
     assert_eq!(seat.text().value().as_deref(), Some("shot.json"));
-    for _ in 0.."shot.json".len() {
-        seat.press(egui::Key::Backspace);
-    }
-    seat.text().type_text("other.json");
-    seat.settle();
+    seat.type_over("other.json");
     seat.press(egui::Key::Enter);
     seat.until("the saved shot", |p| !p.is_opening() && !p.state().look.files_panel);
     seat.act(Action::SetPanel { panel: FILES, open: true });

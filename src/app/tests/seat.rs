@@ -241,6 +241,16 @@ impl Seat {
         self.desk.get_by_role(Role::TextInput)
     }
 
+    /// Types it in place of what the only text has.
+    pub fn type_over(&mut self, words: &str) {
+        self.text().focus();
+        self.settle();
+        self.desk.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+        self.settle();
+        self.text().type_text(words);
+        self.settle();
+    }
+
     pub fn node<'n>(&'n self, role: Role, name: &'n str) -> Node<'n> {
         self.desk.get_by_role_and_label(role, name)
     }
