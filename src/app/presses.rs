@@ -13,37 +13,55 @@ pub struct Presses {
 
 impl Presses {
     /// The events of the next pass, of those that wait and the new ones: a press, the way from it, the
-    /// release and the way from there are for passes of their own, and what is typed before a press is
-    /// for whom it was typed.
+    /// release and the way from there are for passes of their own, and so is what is typed before a
+    /// press or after it.
     pub fn take(&mut self, events: Vec<Event>) -> Vec<Event> {
         self.waiting.extend(events);
-        let (mut is_settled, mut has_moved, mut has_typed) = (false, false, false);
-        let end = self.waiting.iter().position(|event| match event {
-            Event::PointerButton { pressed: true, .. } => {
-                (is_settled, has_moved) = (true, false);
-                has_typed
-            }
-            Event::PointerMoved(_) => {
-                has_moved = true;
-                is_settled
-            }
-            Event::PointerButton { pressed: false, .. } => {
-                is_settled = true;
-                has_moved
-            }
-            Event::Text(_) | Event::Key { .. } | Event::Paste(_) => {
-                has_typed = true;
-                false
-            }
-            _ => false,
-        });
-        let rest = self.waiting.split_off(end.unwrap_or(self.waiting.len()));
+        let mut before = Before::default();
+        let end = self.waiting.iter().position(|event| before.is_for_later(event));
+        let end = end.unwrap_or(self.waiting.len());
+        let rest = self.waiting.split_off(end);
         std::mem::replace(&mut self.waiting, rest)
     }
 
     /// Whether another pass is due at once.
     pub fn has_more(&self) -> bool {
         !self.waiting.is_empty()
+    }
+}
+
+/// What a pass has got already.
+#[derive(Default)]
+struct Before {
+    has_button: bool,
+    /// Since the last press.
+    has_moved: bool,
+    has_typed: bool,
+}
+
+impl Before {
+    /// Whether an event must wait for the next pass; otherwise it is one of this.
+    fn is_for_later(&mut self, event: &Event) -> bool {
+        match event {
+            Event::PointerButton { pressed: true, .. } => {
+                let is_later = self.has_typed;
+                (self.has_button, self.has_moved) = (true, false);
+                is_later
+            }
+            Event::PointerButton { pressed: false, .. } => {
+                self.has_button = true;
+                self.has_moved
+            }
+            Event::PointerMoved(_) => {
+                self.has_moved = true;
+                self.has_button
+            }
+            Event::Text(_) | Event::Paste(_) | Event::Key { pressed: true, .. } => {
+                self.has_typed = true;
+                self.has_button
+            }
+            _ => false,
+        }
     }
 }
 
@@ -82,8 +100,11 @@ mod tests {
     fn what_is_typed_before_a_press_is_taken_before_it() {
         let mut presses = Presses::default();
         let text = Event::Text("a".to_owned());
-        assert_eq!(presses.take(vec![text.clone(), button(1.0, true)]), [text]);
-        assert_eq!(presses.take(Vec::new()), [button(1.0, true)]);
+        assert_eq!(presses.take(vec![text.clone(), button(1.0, true)]), [text.clone()]);
+        let click = [button(1.0, true), button(1.0, false)];
+        let rest = vec![button(1.0, false), text.clone()];
+        assert_eq!(presses.take(rest), click);
+        assert_eq!(presses.take(Vec::new()), [text]);
     }
 
     #[test]

@@ -183,6 +183,8 @@ pub enum Action {
     WriteOver {
         yes: bool,
     },
+    /// Saves changed settings, then does what would have lost them.
+    SaveFirst,
     /// Whether an action that would lose changed settings is to be done all the same.
     GiveUpEdits {
         yes: bool,
@@ -202,9 +204,26 @@ impl Action {
                 | Self::SetFieldOfView { .. }
                 | Self::MakeKeys { .. }
                 | Self::Reload
+                | Self::SaveFirst
                 | Self::Save
                 | Self::SaveAs { .. }
         )
+    }
+
+    /// Whether it is about the settings or frames of what is open, which something else must not get
+    /// that is being opened.
+    pub fn is_about_what_is_open(&self) -> bool {
+        matches!(
+            self,
+            Self::Set { .. }
+                | Self::Reset { .. }
+                | Self::ResetAll
+                | Self::ReRun
+                | Self::Undo
+                | Self::Redo
+                | Self::KeepAsA
+                | Self::SwapAAndB
+        ) || self.needs_the_plan()
     }
 
     /// Whether changed settings that are not saved are lost with it.

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
 
+use super::edits::is_same;
 use super::{Edits, Parameter, value};
 
 /// A setting that two versions have otherwise.
@@ -29,18 +30,23 @@ pub struct Said<'a> {
     pub edits: &'a Edits,
 }
 
-/// The differences of two versions of one shot in what has been edited, in order of path.
-pub fn edited_differences(a: Said<'_>, b: Said<'_>, parameters: &[Parameter]) -> Vec<Difference> {
-    let paths: BTreeSet<&str> =
-        a.edits.iter().chain(b.edits.iter()).map(|(path, _)| path).collect();
+/// The differences of two versions of one shot in what can be tuned or has been edited, in order of
+/// path.
+pub fn tuned_differences(a: Said<'_>, b: Said<'_>, parameters: &[Parameter]) -> Vec<Difference> {
+    let edited = a.edits.iter().chain(b.edits.iter()).map(|(path, _)| path);
+    let paths: BTreeSet<&str> = edited.chain(parameters.iter().map(|p| &*p.path)).collect();
+    let is_other = |of_a: Option<&Value>, of_b: Option<&Value>| match (of_a, of_b) {
+        (Some(of_a), Some(of_b)) => !is_same(of_a, of_b),
+        _ => of_a.is_some() || of_b.is_some(),
+    };
     let difference = |path: &str| {
         if path == CAMERA || path.starts_with("viewers") {
-            let is_other = a.edits.get(path) != b.edits.get(path);
             let values = [String::new(), String::new()];
-            return is_other.then(|| Difference { name: CAMERA.to_owned(), values });
+            return is_other(a.edits.get(path), b.edits.get(path))
+                .then(|| Difference { name: CAMERA.to_owned(), values });
         }
         let [of_a, of_b] = [a, b].map(|said| value(said.written, said.edits, path));
-        (of_a != of_b).then(|| Difference {
+        is_other(of_a.as_ref(), of_b.as_ref()).then(|| Difference {
             name: name(path, parameters),
             values: [of_a, of_b].map(|value| in_short(value.as_ref())),
         })
@@ -171,7 +177,7 @@ mod tests {
             values.iter().for_each(|(path, value)| edits.set(path, value.clone()));
             edits
         };
-        let a = edits(&[("view.nu_out", json!(0.2)), ("fps", json!(24))]);
+        let a = edits(&[("view.nu_out", json!(0.2)), ("fps", json!(24.0))]);
         let b = edits(&[
             ("fabrics.silk.bend", json!(3)),
             ("fps", json!(24)),
@@ -183,8 +189,8 @@ mod tests {
             difference("Fabric: silk: Bend stiffness", "1", "3"),
             difference("Detail out of frame", "0.2", "0.1"),
         ];
-        assert_eq!(edited_differences(a, b, &parameters), expected);
-        assert_eq!(edited_differences(a, a, &parameters), []);
+        assert_eq!(tuned_differences(a, b, &parameters), expected);
+        assert_eq!(tuned_differences(a, a, &parameters), []);
     }
 
     #[test]

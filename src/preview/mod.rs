@@ -28,7 +28,7 @@ pub use camera_edit::{
     CameraEdit, CameraEditError, Cut, LensScope, LensValue, Placement, camera_setting,
 };
 pub use courtesy::give_way;
-pub use differences::{Difference, Said, differences, edited_differences};
+pub use differences::{Difference, Said, differences, tuned_differences};
 pub use edits::Edits;
 pub use engine::{Engine, Job, JobId};
 pub use history::{History, Version};

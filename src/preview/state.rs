@@ -272,3 +272,33 @@ impl Playback {
         Self { current: self.current.min(last), first: self.first.min(kept), last: kept, ..self }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_note_lasts_from_when_it_was_said_last_and_an_error_for_ever() {
+        let mut state = State::default();
+        state.say(Level::Error, "error");
+        state.say(Level::Note, "note");
+        assert_eq!(state.let_notes_go(1.0), Some(1.0 + NOTE_LASTS));
+        state.say(Level::Note, "note");
+        assert_eq!(state.let_notes_go(5.0), Some(5.0 + NOTE_LASTS));
+        assert_eq!((state.let_notes_go(14.9), state.messages.len()), (Some(15.0), 2));
+        assert_eq!((state.let_notes_go(15.0), state.messages.len()), (None, 1));
+        assert_eq!(state.let_notes_go(1e9), None);
+        assert_eq!(state.messages[0].text, "error");
+    }
+
+    #[test]
+    fn of_too_many_messages_errors_stay_longest() {
+        let mut state = State::default();
+        state.say(Level::Error, "error");
+        for number in 0..2 * MESSAGES_KEPT {
+            state.say(Level::Warning, format!("warning {number}"));
+        }
+        assert_eq!(state.messages.len(), MESSAGES_KEPT);
+        assert_eq!(state.messages[0].text, "error");
+    }
+}

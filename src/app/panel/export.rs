@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use egui::{DragValue, RichText, ScrollArea, TextEdit, Ui};
 
-use super::{Context, floating, is_left};
+use super::{Context, floating};
 use crate::app::theme;
 use crate::preview::{Action, Export, ExportKind, PanelName, Viewport};
 
@@ -57,7 +57,7 @@ impl ExportPanel {
                 self.where_to(ui, context, actions);
             });
         });
-        if !open || is_left(ui) {
+        if !open {
             actions.push(Action::SetPanel { panel: PanelName::Export, open: false });
         }
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Label, RichText, ScrollArea, TextEdit, Ui};
 
-use super::{Context, floating, is_left};
+use super::{Context, floating};
 use crate::app::theme;
 use crate::preview::{Action, Level, PanelName, Source};
 use crate::run::RunReader;
@@ -65,7 +65,7 @@ impl FilesPanel {
             self.typed(ui, context, actions);
             self.folder(ui, actions);
         });
-        if !open || is_left(ui) {
+        if !open {
             actions.push(Action::SetPanel { panel, open: false });
         }
     }
@@ -73,12 +73,20 @@ impl FilesPanel {
     /// The shot's own name, where it is, as one to change.
     fn suggest(&mut self, context: &Context<'_>) {
         let Source::Shot(request) = context.previewer.source() else { return };
-        let path = request.path();
-        self.path = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if let Ok(path) = std::path::absolute(&path)
+        self.path = self.usual_name(context);
+        if let Ok(path) = std::path::absolute(request.path())
             && let Some(folder) = path.parent().filter(|_| request.shot.is_some())
         {
             self.folder = folder.to_owned();
+        }
+    }
+
+    /// To begin with: of what is saved its own, of what is opened none.
+    fn usual_name(&self, context: &Context<'_>) -> String {
+        let name = |path: PathBuf| path.file_name().map(|n| n.to_string_lossy().into_owned());
+        match (context.previewer.source(), self.purpose) {
+            (Source::Shot(request), Purpose::SaveAs) => name(request.path()).unwrap_or_default(),
+            _ => String::new(),
         }
     }
 
@@ -104,6 +112,7 @@ impl FilesPanel {
         if is_ready && (button.clicked() || entered) {
             if is_plain_folder(&path) {
                 self.enter(&path);
+                self.path = self.usual_name(context);
             } else {
                 actions.push(match self.purpose {
                     Purpose::Open => Action::Open { path },

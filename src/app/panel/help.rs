@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::{floating, is_left};
+use super::floating;
 use crate::app::keys::SHORTCUTS;
 use crate::preview::{Action, PanelName};
 
@@ -35,7 +35,7 @@ pub fn show(ui: &Ui, actions: &mut Vec<Action>) {
             }
         });
     });
-    if !open || is_left(ui) {
+    if !open {
         actions.push(Action::SetPanel { panel: PanelName::Help, open: false });
     }
 }

@@ -112,7 +112,7 @@ fn unsaved(ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
     let is_left = question(ui, "unsaved", &words, |ui| {
         let save = ui.add_enabled(can_save, egui::Button::new("Save first"));
         if save.on_disabled_hover_text("Save as first, under a name").clicked() {
-            actions.extend([Action::GiveUpEdits { yes: false }, Action::Save]);
+            actions.push(Action::SaveFirst);
         }
         if ui.button("Give them up").clicked() {
             actions.push(Action::GiveUpEdits { yes: true });

@@ -41,6 +41,8 @@ pub struct Panels {
     parameters: parameters::ParametersPanel,
     camera: camera::CameraPanel,
     costs: costs::CostsPanel,
+    /// Something had the keyboard at the end of the last pass.
+    had_focus: bool,
 }
 
 impl Default for Panels {
@@ -52,6 +54,7 @@ impl Default for Panels {
             parameters: Default::default(),
             camera: Default::default(),
             costs: Default::default(),
+            had_focus: false,
         }
     }
 }
@@ -99,6 +102,7 @@ impl Panels {
         actions: &mut Vec<Action>,
     ) {
         let look = context.previewer.state().look;
+        self.leave(ui, context, actions);
         legend::show(ui, context);
         messages::show(ui, context, actions);
         if look.help_panel {
@@ -120,15 +124,33 @@ impl Panels {
     }
 }
 
+impl Panels {
+    /// Escape closes what lies on top, unless it is for something else: a menu, or a number being typed.
+    fn leave(&mut self, ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
+        let had_focus = std::mem::replace(
+            &mut self.had_focus,
+            ui.ctx().memory(|memory| memory.focused().is_some()),
+        );
+        let state = context.previewer.state();
+        let is_asked = state.unsaved.is_some() || state.overwriting.is_some();
+        let is_pressed = ui.input(|input| input.key_pressed(egui::Key::Escape));
+        if !is_pressed || is_asked || egui::Popup::is_any_open(ui.ctx()) {
+            return;
+        }
+        let is_open = |panel: &PanelName| *state.look.clone().panel_mut(*panel);
+        // A name that is asked for is all that can be typed there.
+        let top = [PanelName::SaveAs, PanelName::Files].into_iter().find(is_open);
+        let rest = [PanelName::Export, PanelName::Help].into_iter().find(is_open);
+        if let Some(panel) = top.or(rest.filter(|_| !had_focus)) {
+            actions.push(Action::SetPanel { panel, open: false });
+        }
+    }
+}
+
 /// A window over the viewports, to begin with beside where messages stand.
 fn floating(ui: &Ui, title: &'static str) -> egui::Window<'static> {
     let views = ui.max_rect();
     egui::Window::new(title)
         .constrain_to(views)
         .default_pos(views.center_top() + egui::vec2(0.0, 8.0))
-}
-
-/// Whether what is open is left by Escape.
-fn is_left(ui: &Ui) -> bool {
-    ui.input(|input| input.key_pressed(egui::Key::Escape))
 }

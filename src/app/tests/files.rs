@@ -1,6 +1,7 @@
 //! The files' panel.
 
 use super::seat::Seat;
+use crate::preview::stage::windy;
 use crate::preview::{Action, PanelName, Source};
 
 const FILES: PanelName = PanelName::Files;
@@ -35,6 +36,7 @@ fn a_path_that_cannot_be_opened_stays_with_the_reason_beside_it() {
 #[test]
 fn what_is_typed_into_a_window_just_opened_is_a_path_and_no_key() {
     let mut seat = Seat::take();
+    seat.act(Action::GoTo { frame: 3 });
     for panel in [FILES, PanelName::SaveAs] {
         seat.act(Action::SetPanel { panel, open: true });
         assert!(seat.text().is_focused());
@@ -43,13 +45,26 @@ fn what_is_typed_into_a_window_just_opened_is_a_path_and_no_key() {
         for key in [egui::Key::K, egui::Key::I, egui::Key::ArrowRight] {
             seat.press(key);
         }
-        assert_eq!(seat.current(), 0);
+        let playback = seat.previewer().state().playback;
+        assert_eq!((playback.current, playback.first), (3, 0));
         assert!(!seat.previewer().has_unsaved_edits());
         seat.press(egui::Key::Escape);
         assert!(!*seat.previewer().state().look.clone().panel_mut(panel));
     }
     seat.press(egui::Key::ArrowRight);
-    assert_eq!(seat.current(), 1);
+    assert_eq!(seat.current(), 4);
+}
+
+#[test]
+fn saving_under_the_name_it_has_closes_the_window() {
+    let mut seat = Seat::take();
+    seat.act(windy(2.0));
+    seat.until_planned();
+    seat.act(Action::SetPanel { panel: PanelName::SaveAs, open: true });
+    seat.press(egui::Key::Enter);
+    seat.until_planned();
+    assert!(!seat.previewer().has_unsaved_edits());
+    assert!(!seat.previewer().state().look.save_panel);
 }
 
 #[test]

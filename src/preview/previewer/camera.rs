@@ -57,9 +57,6 @@ impl Previewer {
                 let path = camera_setting(&plan.requested.written);
                 let before = CameraEdit::of_shot(plan.resolved(), &plan.requested.scene);
                 if before.as_ref() != Ok(&camera) {
-                    if self.state.version.edits.get(path).is_none() {
-                        self.planning.unedited_camera = before.map(|camera| camera.json()).ok();
-                    }
                     self.edit_camera(path, camera.json());
                 }
             }

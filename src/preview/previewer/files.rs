@@ -21,21 +21,31 @@ use crate::request::Request;
 use crate::scene::from_json;
 use crate::sim::SizingMode;
 
+/// It has been said why.
+struct NotSaved;
+
 impl Previewer {
     pub(super) fn act_on_files(&mut self, action: Action) {
         match action {
             Action::Open { path } => self.open(Some(path)),
             Action::OpenOwn => self.open(None),
             Action::Reload => self.reload(),
+            Action::SaveFirst => {
+                if let Some(next) = self.state.unsaved.take()
+                    && self.save(None).is_ok()
+                {
+                    self.act(next);
+                }
+            }
             Action::IgnoreChanges => self.watched.ignored.append(&mut self.watched.changed),
-            Action::Save => self.save(None),
+            Action::Save => drop(self.save(None)),
             Action::SaveAs { path, overwrite } => {
                 if !overwrite && path.exists() && !self.is_open_shot(&path) {
                     let what = format!("there is another {:?} already", path.display());
                     let action = Action::SaveAs { path, overwrite: true };
                     self.ask_before_overwriting(what, action);
                 } else {
-                    self.save(Some(path));
+                    let _ = self.save(Some(path));
                 }
             }
             other => unreachable!("{other:?} is about other things"),
@@ -71,7 +81,7 @@ impl Previewer {
     fn reload(&mut self) {
         let (source, saved) = (self.open.source.clone(), self.open.saved.as_ref());
         self.state.say(Level::Note, "all files are read again; changed settings go on to hold");
-        let Some(saved) = saved else { return self.ask(source, Occasion::Change, None) };
+        let Some(saved) = saved else { return self.ask(source, Occasion::Reading, None) };
         let now = self.state.version.edits.clone();
         let mut edits = now.beyond(&saved.edits);
         let text: Value = from_json("shot", &saved.text).unwrap_or_default();
@@ -90,15 +100,21 @@ impl Previewer {
 
     /// Into the shot's own file, or into another, which is then the one that is open. All that could be
     /// undone before can be still.
-    fn save(&mut self, to: Option<PathBuf>) {
+    ///
+    /// # Errors
+    /// If nothing is written; why has been said.
+    fn save(&mut self, to: Option<PathBuf>) -> Result<(), NotSaved> {
         match self.saved(to) {
             Ok((request, saved)) => {
                 self.state.say(Level::Note, format!("saved {:?}", request.path().display()));
+                self.state.look.save_panel = false;
                 self.ask(Source::Shot(request), Occasion::Change, Some(saved));
+                Ok(())
             }
             Err(why) => {
                 self.state.say(Level::Error, why.clone());
                 self.planning.refusals.push(why);
+                Err(NotSaved)
             }
         }
     }

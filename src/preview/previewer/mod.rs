@@ -142,7 +142,12 @@ impl Previewer {
     /// Does what a user asks. Returns at once; what takes time is done by a thread, and what builds upon
     /// a plan that is not there yet is done when it is.
     pub fn act(&mut self, action: Action) {
-        if self.planning.awaited.is_some() && action.needs_the_plan() {
+        let is_early = match &self.planning.awaited {
+            None => false,
+            Some(awaited) if awaited.occasion == Occasion::Change => action.needs_the_plan(),
+            Some(_) => action.is_about_what_is_open(),
+        };
+        if is_early {
             let (current, dragged_camera) =
                 (self.state.playback.current, self.state.dragged_camera);
             self.planning.deferred.push_back(Deferred { action, current, dragged_camera });
@@ -208,6 +213,7 @@ impl Previewer {
             | Action::OpenOwn
             | Action::Reload
             | Action::IgnoreChanges
+            | Action::SaveFirst
             | Action::Save
             | Action::SaveAs { .. } => self.act_on_files(action),
 

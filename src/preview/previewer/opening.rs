@@ -1,11 +1,12 @@
 //! What has been planned comes into force, be it a change or something else that is opened.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::parts::{Awaited, Occasion};
 use super::{Effect, Previewer};
 use crate::preview::Plan;
+use crate::preview::camera_edit::CameraEdit;
 use crate::preview::planner::Opened;
 use crate::preview::scenery::Scenery;
 use crate::preview::state::{Level, Playback};
@@ -33,7 +34,6 @@ impl Previewer {
         let refused = match occasion {
             Occasion::Opening => {
                 self.planning.opening_failure = Some(why);
-                self.planning.tried.clear();
                 None
             }
             Occasion::Change | Occasion::Reading => {
@@ -42,17 +42,24 @@ impl Previewer {
             }
         };
         let other = self.planning.tried.last().cloned();
-        let is_open = other.is_some() || (refused.is_some() && saved.is_some());
+        let is_next = other.is_some() || (refused.is_some() && saved.is_some());
         let standing = other.unwrap_or_else(|| self.planning.proved.clone());
         (self.state.version, self.state.history) = (standing.version, standing.history);
-        match is_open {
-            true => self.ask(source, occasion, saved),
-            false => self.pursue(),
+        if is_next {
+            self.ask(source, occasion, saved);
+            if let Some(awaited) = &mut self.planning.awaited {
+                awaited.follows_refusal = true;
+            }
+            return;
         }
+        // It is in the file, whether or not it can be planned now.
+        let is_here = source == self.open.source;
+        self.open.saved = saved.filter(|_| is_here).or(self.open.saved.take());
+        self.pursue();
     }
 
     fn take_opened(&mut self, opened: Opened, awaited: Awaited) {
-        let Awaited { source, occasion, saved, .. } = awaited;
+        let Awaited { source, occasion, saved, follows_refusal, .. } = awaited;
         let is_new = occasion == Occasion::Opening || self.open.scenery.is_none();
         let is_renamed = self.open.source != source;
         if occasion != Occasion::Change && self.open.saved.take().is_some() {
@@ -60,22 +67,25 @@ impl Previewer {
             self.state.history = Default::default();
             (self.state.a, self.state.wipe) = (None, None);
         }
-        if self.state.version.edits.iter().all(|(path, _)| !is_camera(path)) {
-            self.planning.unedited_camera = None;
-        }
-        self.open.saved = saved.or(self.open.saved.take());
         self.open.source = source.clone();
         if occasion == Occasion::Opening {
             self.planning.opening_failure = None;
         }
-        for why in std::mem::take(&mut self.planning.refusals) {
-            self.state.take_back(&why);
+        if !follows_refusal {
+            for why in std::mem::take(&mut self.planning.refusals) {
+                self.state.take_back(&why);
+            }
         }
-        self.note_read(is_new, occasion);
+        // Of a shot that was saved earlier, what it was is planned upon, not what others have made of it.
+        let is_kept = occasion == Occasion::Change && saved.is_none() && self.open.saved.is_some();
+        let unread = self.shot_file().filter(|_| is_kept);
+        self.note_read(is_new, unread.as_deref());
+        self.open.saved = saved.or(self.open.saved.take());
         match opened {
             Opened::Shot(plan) => self.follow(Arc::from(plan), is_new),
             Opened::Run(run) => self.show_run(run),
         }
+        self.note_unedited_camera();
         self.planning.proved = self.standing();
         self.planning.tried.clear();
         if is_new {
@@ -85,19 +95,33 @@ impl Previewer {
         }
     }
 
-    /// Files that had changed have been read with the plan; but of a shot that was saved since, what it
-    /// was is planned upon, not what others have made of it.
-    fn note_read(&mut self, is_new: bool, occasion: Occasion) {
-        let is_kept = occasion == Occasion::Change && self.open.saved.is_some();
-        let kept = self.shot_file().filter(|_| is_kept);
-        let is_unread = |path: &PathBuf| Some(path) == kept.as_ref();
+    /// Files that had changed have been read with the plan.
+    fn note_read(&mut self, is_new: bool, unread: Option<&Path>) {
+        let is_unread = |path: &PathBuf| Some(path.as_path()) == unread;
+        let before = [self.watched.changed.len(), self.watched.ignored.len()];
         self.watched.changed.retain(is_unread);
-        let before = self.watched.ignored.len();
         self.watched.ignored.retain(is_unread);
-        if self.watched.ignored.len() < before && !is_new {
+        let after = [self.watched.changed.len(), self.watched.ignored.len()];
+        if after[1] < before[1] && !is_new {
             let text = "files that had changed on disk were read again with this change";
             self.state.say(Level::Note, text);
         }
+        if after != before {
+            // It may be another now.
+            self.planning.unedited_camera = None;
+        }
+    }
+
+    /// The camera as the shot has it, while nobody has edited it.
+    fn note_unedited_camera(&mut self) {
+        let is_camera = |path: &str| path == "camera" || path.starts_with("viewers");
+        if self.state.version.edits.iter().any(|(path, _)| is_camera(path)) {
+            return;
+        }
+        let of_plan =
+            |plan: &Arc<Plan>| CameraEdit::of_shot(plan.resolved(), &plan.requested.scene);
+        let camera = self.open.plan.as_ref().and_then(|plan| of_plan(plan).ok());
+        self.planning.unedited_camera = camera.map(|camera| camera.json());
     }
 
     fn follow(&mut self, plan: Arc<Plan>, is_new: bool) {
@@ -161,10 +185,6 @@ impl Previewer {
         self.take_back_warnings();
         self.forget_failure();
     }
-}
-
-fn is_camera(path: &str) -> bool {
-    path == "camera" || path.starts_with("viewers")
 }
 
 /// Which frames a run does not have between its first and its last, in words.

@@ -80,6 +80,8 @@ pub(super) struct Awaited {
     pub occasion: Occasion,
     /// What has just been saved, which holds when the plan does.
     pub saved: Option<Saved>,
+    /// What it is asked for instead of has just been refused: that stays said.
+    pub follows_refusal: bool,
 }
 
 /// Why a plan is made.

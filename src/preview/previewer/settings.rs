@@ -12,7 +12,7 @@ use crate::preview::history::Version;
 use crate::preview::plan::Anchor;
 use crate::preview::planner::Source;
 use crate::preview::state::{Level, Remembered};
-use crate::preview::{Difference, Edits, Said, differences, edited_differences, parameters};
+use crate::preview::{Difference, Edits, Said, differences, parameters, tuned_differences};
 use crate::request::Request;
 use crate::scene::joined;
 
@@ -152,7 +152,8 @@ impl Previewer {
             _ => (source.clone(), edits, None),
         };
         let request = self.planning.planner.open(from, edits, unread);
-        self.planning.awaited = Some(Awaited { request, source, occasion, saved });
+        self.planning.awaited =
+            Some(Awaited { request, source, occasion, saved, follows_refusal: false });
     }
 
     /// The open shot's file, as plans call it.
@@ -192,17 +193,17 @@ impl Previewer {
     /// Finds in what A and B differ, after either has changed.
     pub(super) fn compare_settings(&mut self) {
         let Some(a) = &self.state.a else { return self.showing.differences.clear() };
-        let edited = self.open.plan.as_ref().map(|plan| {
+        let tuned = self.open.plan.as_ref().map(|plan| {
             let requested = &plan.requested;
             let of_a = Said { written: &a.written, edits: &a.version.edits };
             let of_b = Said { written: &requested.written, edits: &self.state.version.edits };
-            edited_differences(of_a, of_b, &parameters(&requested.written, &requested.scene))
+            tuned_differences(of_a, of_b, &parameters(&requested.written, &requested.scene))
         });
-        let edited = edited.unwrap_or_default();
+        let tuned = tuned.unwrap_or_default();
         self.showing.differences = match self.resolved() {
-            // Files may have been read again, with other things in them.
-            Some(b) if edited.is_empty() => differences(&a.resolved, b),
-            _ => edited,
+            // They may differ in what no slider shows.
+            Some(b) if tuned.is_empty() => differences(&a.resolved, b),
+            _ => tuned,
         };
     }
 

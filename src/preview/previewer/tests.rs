@@ -176,8 +176,10 @@ fn a_refused_value_takes_no_other_change_along() {
     p.wait_for(|p| !p.is_opening());
     let edits = |p: &Previewer| p.state.version.edits.overrides();
     assert_eq!(edits(&p.0), ["air.velocity=[1.0,2.0,0.0]", "view.nu_out=0.3"]);
+    // Why is still to be read.
+    assert!(p.0.state.messages.last().is_some_and(|m| m.text.contains("view.nu_out is -5")));
     p.act(Action::Undo);
-    p.until_opened();
+    p.wait_for(|p| !p.is_opening());
     assert_eq!(edits(&p.0), ["air.velocity=[1.0,2.0,0.0]"]);
     p.act(Action::Undo);
     p.until_opened();
@@ -203,4 +205,23 @@ fn an_undo_that_cannot_be_planned_can_be_tried_again() {
     p.wait_for(|p| !p.is_opening());
     assert!(p.0.state.version.edits.is_empty() && p.0.state.history.can_redo());
     assert!(p.0.state.messages.is_empty(), "{:?}", p.0.state.messages);
+}
+
+#[test]
+fn what_is_changed_while_something_else_is_opened_is_changed_there_and_goes_on_from_none_of_its_frames()
+ {
+    let stage = Stage::set();
+    let mut p = stage.start(true);
+    p.until_done();
+    let other = stage.folder.path().join("other.json");
+    std::fs::write(&other, stage::SHOT.replace("0.05", "0.06")).unwrap();
+    p.act(Action::GoTo { frame: 6 });
+    p.act(Action::Open { path: other });
+    p.act(windy(2.0));
+    p.act(Action::Undo);
+    p.act(windy(3.0));
+    p.until("the other shot", |p| !p.is_opening() && p.planning.deferred.is_empty());
+    assert_eq!(p.0.scenery().unwrap().name, "other");
+    assert_eq!(p.0.state.version.edits.overrides(), ["air.velocity=[3.0,2.0,0.0]"]);
+    assert_eq!(p.0.state.version.anchor, None);
 }

@@ -226,7 +226,7 @@ fn what_others_do_to_a_saved_shot_stays_offered_and_changes_nothing_until_it_is_
     }
     let is_read = |p: &Previewer| p.state.messages.iter().any(|m| m.text.contains("read again"));
     p.act(Action::IgnoreChanges);
-    p.act(windy(5.0));
+    p.act(windy(6.0));
     p.until_opened();
     assert!(!is_read(&p.0));
     p.act(Action::Reload);
@@ -268,6 +268,44 @@ fn a_value_refused_before_a_saved_shot_is_read_leaves_it_open() {
     assert!(matches!(p.0.source(), Source::Shot(request) if request.shot == Some(to.clone())));
     assert!(!p.0.has_unsaved_edits());
     assert_eq!(p.0.state.version.edits.overrides(), ["air.velocity=[2.5,2.0,0.0]"]);
+    assert!(p.0.state.messages.iter().any(|m| m.text.contains("view.nu_out is -5")));
+}
+
+#[test]
+fn what_is_saved_is_saved_though_it_cannot_be_planned_just_now() {
+    let stage = Stage::set();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(windy(2.5));
+    p.until_opened();
+    let [mesh, away] = ["sheet.obj", "away.obj"].map(|name| stage.folder.path().join(name));
+    fs::rename(&mesh, &away).unwrap();
+    p.act(Action::Save);
+    p.wait_for(|p| !p.is_opening());
+    assert!(!p.0.has_unsaved_edits());
+    fs::rename(&away, &mesh).unwrap();
+    p.act(Action::Undo);
+    p.wait_for(|p| !p.is_opening());
+    assert!(p.0.has_unsaved_edits() && p.0.state.version.edits.is_empty());
+    p.act(Action::Save);
+    p.wait_for(|p| !p.is_opening());
+    assert_eq!(fs::read_to_string(stage.shot()).unwrap(), SHOT);
+}
+
+#[test]
+fn settings_are_saved_before_something_else_is_opened_if_that_is_asked_for() {
+    let stage = Stage::set();
+    let run = stage.finished_run();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(windy(2.5));
+    p.until_opened();
+    p.act(Action::Open { path: run });
+    assert!(p.0.state.unsaved.is_some());
+    p.act(Action::SaveFirst);
+    p.until("the run", |p| matches!(p.source(), Source::Run(_)));
+    assert!(fs::read_to_string(stage.shot()).unwrap().contains("2.5"));
+    assert!(p.0.state.unsaved.is_none());
 }
 
 #[test]

@@ -61,8 +61,7 @@ fn after_a_step_that_failed_the_simulation_goes_on_with_the_next_settings() {
     // Halted or not, it is said no more when other settings are in force.
     p.act(Action::Simulate { on: false });
     p.act(Action::Undo);
-    p.wait_for(|p| !p.is_opening() && p.timeline().is_clean(0, LAST));
-    assert_eq!(p.0.failed_frame(), None);
+    p.wait_for(|p| p.timeline().is_clean(0, LAST) && p.failed_frame().is_none());
     assert!(p.0.state.messages.is_empty(), "{:?}", p.0.state.messages);
     p.act(Action::Simulate { on: p.0.would_simulate() });
     p.act(windy(3.0));
