@@ -41,13 +41,12 @@ pub(super) fn press(name: &str) -> Result<Vec<Vec<Event>>> {
     let mut modifiers = Modifiers::NONE;
     let mut rest = name;
     while let Some((held, key)) = rest.split_once('+') {
-        modifiers = modifiers
-            | match held {
-                "Ctrl" => Modifiers::CTRL | Modifiers::COMMAND,
-                "Shift" => Modifiers::SHIFT,
-                "Alt" => Modifiers::ALT,
-                _ => break,
-            };
+        modifiers |= match held {
+            "Ctrl" => Modifiers::CTRL | Modifiers::COMMAND,
+            "Shift" => Modifiers::SHIFT,
+            "Alt" => Modifiers::ALT,
+            _ => break,
+        };
         rest = key;
     }
     let Some(key) = Key::from_name(rest) else { bail!("{name:?} is no key") };
