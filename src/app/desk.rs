@@ -78,11 +78,11 @@ impl Desk {
         let began = Instant::now();
         self.previewer.receive();
         for wish in std::mem::take(&mut self.wishes) {
-            let action = match wish {
-                Wish::Action(action) => action,
-                Wish::Key(asked) => asked(&self.previewer),
-            };
-            self.previewer.act(action);
+            match wish {
+                Wish::Action(action) => self.previewer.act(action),
+                Wish::Key(asked) if self.takes_keys() => self.previewer.act(asked(&self.previewer)),
+                Wish::Key(_) => {}
+            }
         }
         self.carry_out();
         self.exports.look_after(&mut self.previewer);

@@ -14,7 +14,7 @@ pub struct Presses {
 impl Presses {
     /// The events of the next pass, of those that wait and the new ones: a press, the way from it, the
     /// release and the way from there are for passes of their own, and so is what is typed before a
-    /// press or after it.
+    /// press, after it, or after a key with Ctrl.
     pub fn take(&mut self, events: Vec<Event>) -> Vec<Event> {
         self.waiting.extend(events);
         let mut before = Before::default();
@@ -37,6 +37,8 @@ struct Before {
     /// Since the last press.
     has_moved: bool,
     has_typed: bool,
+    /// Which may open a window that takes what is typed then.
+    has_command: bool,
 }
 
 impl Before {
@@ -56,9 +58,13 @@ impl Before {
                 self.has_moved = true;
                 self.has_button
             }
+            Event::Key { pressed: true, modifiers, .. } if modifiers.command => {
+                (self.has_typed, self.has_command) = (true, true);
+                self.has_button
+            }
             Event::Text(_) | Event::Paste(_) | Event::Key { pressed: true, .. } => {
                 self.has_typed = true;
-                self.has_button
+                self.has_button || self.has_command
             }
             _ => false,
         }
@@ -106,6 +112,23 @@ mod tests {
         let rest = vec![button(1.0, false), text.clone()];
         assert_eq!(presses.take(rest), click);
         assert_eq!(presses.take(Vec::new()), [text]);
+    }
+
+    #[test]
+    fn what_is_typed_after_a_key_that_opens_a_window_is_for_the_window() {
+        let key = |key, modifiers| Event::Key {
+            key,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers,
+        };
+        let open = key(egui::Key::O, Modifiers::COMMAND);
+        let (a, text) = (key(egui::Key::A, Modifiers::NONE), Event::Text("a".to_owned()));
+        let mut presses = Presses::default();
+        let typed = vec![open.clone(), open.clone(), a.clone(), text.clone()];
+        assert_eq!(presses.take(typed), [open.clone(), open]);
+        assert_eq!(presses.take(Vec::new()), [a, text]);
     }
 
     #[test]

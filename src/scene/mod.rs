@@ -34,8 +34,8 @@ pub use resolve::{contact_thickness_most, load_camera, recorded_viewers};
 pub use settings::{
     Air, Contact, Dynamics, SizingSettings, SolverChoice, StageSwitches, ViewRule, ViewSettings,
 };
-pub(crate) use source::joined;
 pub use source::{EmbeddedFiles, FileRead, FileRole, FileSource, FileSystem};
+pub(crate) use source::{content_hash, joined};
 pub use surface::{Surface, Welding};
 
 use std::collections::BTreeMap;

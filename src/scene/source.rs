@@ -80,6 +80,11 @@ pub enum FileRole {
     Camera,
 }
 
+/// Of what is in a file, as [`FileRead`] has it.
+pub(crate) fn content_hash(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 /// Reads each file once and remembers which.
 pub(super) struct Reader<'a> {
     source: &'a dyn FileSource,
@@ -107,7 +112,7 @@ impl<'a> Reader<'a> {
             .source
             .read(path)
             .map_err(|error| Problem::Read { path: path.to_path_buf(), error }.nowhere())?;
-        let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        let sha256 = content_hash(&bytes);
         self.files_read.borrow_mut().push(FileRead { path: path.to_path_buf(), sha256, role });
         let text: Arc<str> = String::from_utf8_lossy(&bytes).into();
         self.texts.borrow_mut().insert(path.to_path_buf(), text.clone());

@@ -30,8 +30,10 @@ fn groups(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
     colours(ui, context, wish);
     lasting_menu("Show").ui(ui, |ui| overlays(ui, context, wish));
     ui.separator();
-    simulation(ui, context, wish);
-    ui.separator();
+    if context.previewer.scenery().is_some() {
+        simulation(ui, context, wish);
+        ui.separator();
+    }
     versions(ui, context, wish);
 }
 
@@ -95,7 +97,8 @@ fn writing(ui: &mut Ui, context: &Context<'_>, wish: &mut impl FnMut(Action)) {
     if save.on_hover_text("the changed settings into the shot's file (Ctrl S)").clicked() {
         wish(Action::Save);
     }
-    if ui.button("Export").on_hover_text("stills, sheets, pictures, video, a run").clicked() {
+    let export = ui.add_enabled(context.previewer.scenery().is_some(), Button::new("Export"));
+    if export.on_hover_text("stills, sheets, pictures, video, a run").clicked() {
         wish(Action::SetPanel { panel: PanelName::Export, open: true });
     }
 }

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
 use egui::{Label, RichText, ScrollArea, TextEdit, Ui};
 
 use super::{Context, floating};
@@ -20,6 +22,10 @@ pub struct FilesPanel {
     entries: Option<Result<Vec<Entry>, String>>,
     /// It has just been opened: what is typed is a path.
     is_fresh: bool,
+    /// The path is to be typed, until it can be.
+    wants_focus: bool,
+    /// Why what was to be opened could not be, when that was shown last.
+    failure: Option<String>,
 }
 
 /// What a path is for.
@@ -46,7 +52,15 @@ enum Kind {
 impl FilesPanel {
     pub fn of(purpose: Purpose) -> Self {
         let folder = std::env::current_dir().unwrap_or_else(|_| PathBuf::from("."));
-        Self { purpose, folder, path: String::new(), entries: None, is_fresh: true }
+        Self {
+            purpose,
+            folder,
+            path: String::new(),
+            entries: None,
+            is_fresh: true,
+            wants_focus: false,
+            failure: None,
+        }
     }
 
     pub fn show(&mut self, ui: &Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
@@ -54,8 +68,11 @@ impl FilesPanel {
             Purpose::Open => ("Open", PanelName::Files),
             Purpose::SaveAs => ("Save as", PanelName::SaveAs),
         };
-        if self.is_fresh && self.purpose == Purpose::SaveAs {
-            self.suggest(context);
+        if std::mem::take(&mut self.is_fresh) {
+            self.wants_focus = true;
+            if self.purpose == Purpose::SaveAs {
+                self.suggest(context);
+            }
         }
         let mut open = true;
         floating(ui, title).open(&mut open).default_width(520.0).show(ui.ctx(), |ui| {
@@ -92,12 +109,22 @@ impl FilesPanel {
 
     /// The path, what is done with it, and why it could not be done.
     fn typed(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
-        let field =
-            TextEdit::singleline(&mut self.path).hint_text("path").desired_width(f32::INFINITY);
-        let response = ui.add(field);
-        if std::mem::take(&mut self.is_fresh) {
-            response.request_focus();
+        let id = ui.scope_id().with("path");
+        let failure = context.previewer.opening_failure().map(str::to_owned);
+        self.wants_focus |= failure.is_some() && failure != self.failure;
+        if self.wants_focus {
+            // Before the field is shown: what is typed in this pass is for it, in place of all.
+            ui.memory_mut(|memory| memory.request_focus(id));
+            let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
+            let whole = [0, self.path.chars().count()].map(CCursor::new);
+            state.cursor.set_char_range(Some(CCursorRange::two(whole[0], whole[1])));
+            state.store(ui.ctx(), id);
         }
+        self.failure = failure;
+        let field = TextEdit::singleline(&mut self.path).id(id).hint_text("path");
+        let response = ui.add(field.desired_width(f32::INFINITY));
+        // A window that has just been opened, or lies under a question, is not to be had at once.
+        self.wants_focus &= !response.has_focus();
         let entered = response.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
         let path = self.folder.join(self.path.trim());
         let is_shot = matches!(context.previewer.source(), Source::Shot(_));

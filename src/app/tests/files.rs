@@ -68,6 +68,19 @@ fn saving_under_the_name_it_has_closes_the_window() {
 }
 
 #[test]
+fn who_could_not_open_a_path_types_another_in_its_place() {
+    let mut seat = Seat::take();
+    seat.act(Action::SetPanel { panel: FILES, open: true });
+    type_path(&mut seat, "nothing.json");
+    seat.press(egui::Key::Enter);
+    seat.until_refused();
+    assert!(seat.text().is_focused());
+    seat.text().type_text("x");
+    seat.settle();
+    assert_eq!(seat.text().value().as_deref(), Some("x"));
+}
+
+#[test]
 fn what_has_been_opened_closes_the_panel() {
     let mut seat = Seat::take();
     seat.act(Action::SetPanel { panel: FILES, open: true });

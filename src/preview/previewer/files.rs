@@ -18,7 +18,7 @@ use crate::preview::save::{rebased, saved_text, seen_from, wrapped_text};
 use crate::preview::state::Level;
 use crate::preview::{Edits, Plan};
 use crate::request::Request;
-use crate::scene::from_json;
+use crate::scene::{content_hash, from_json};
 use crate::sim::SizingMode;
 
 /// It has been said why.
@@ -153,18 +153,31 @@ impl Previewer {
 
     /// What the open shot's file says without edits.
     fn original(&self, from: &Path, to: &Path) -> Result<String, String> {
-        let read = || {
+        let on_disk = || {
             fs::read_to_string(from)
                 .map_err(|error| format!("cannot read {:?}: {error}", from.display()))
         };
-        let Some(saved) = &self.open.saved else { return read() };
-        if self.is_open_shot(to) && read().is_ok_and(|text| *text != *saved.written) {
-            return Err(format!(
-                "{:?} has changed on disk since it was saved: Reload it first, or Save as another",
-                from.display()
-            ));
+        let changed = |since, cure| {
+            format!("{:?} has changed on disk since it was {since}: {cure}", from.display())
+        };
+        let Some(saved) = &self.open.saved else {
+            let text = on_disk()?;
+            return match self.is_as_read(&text) {
+                true => Ok(text),
+                false => Err(changed("read", "Reload it first")),
+            };
+        };
+        if self.is_open_shot(to) && on_disk().is_ok_and(|text| *text != *saved.written) {
+            return Err(changed("saved", "Reload it first, or Save as another"));
         }
         Ok(saved.text.to_string())
+    }
+
+    /// Whether the shot's file says what the plan in force was made from.
+    fn is_as_read(&self, text: &str) -> bool {
+        let (Some(plan), Some(shot)) = (&self.open.plan, self.shot_file()) else { return true };
+        let read = plan.requested.files_read.iter().find(|file| file.path == shot);
+        read.is_none_or(|file| file.sha256 == content_hash(text.as_bytes()))
     }
 }
 

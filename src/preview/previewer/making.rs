@@ -17,17 +17,12 @@ impl Previewer {
         if self.planning.awaited.is_some() || self.making.job.is_some() {
             return;
         }
-        let gap = self.frames.timeline.gap(&self.frames.store);
-        let next = gap.as_ref().and_then(|(_, frames)| frames.first());
-        if self.making.failure.as_ref().is_some_and(|failure| Some(&failure.key) == next) {
-            return;
-        }
-        self.forget_failure();
-        if !self.state.simulating {
+        self.review_failure();
+        if !self.state.simulating || self.making.failure.is_some() {
             return;
         }
         let Some(plan) = self.open.plan.clone() else { return };
-        let Some((first, frames)) = gap else { return };
+        let Some((first, frames)) = self.frames.timeline.gap(&self.frames.store) else { return };
         let start = match first.checked_sub(1) {
             None => None,
             Some(before) => match self.start_frame(before) {
@@ -109,6 +104,16 @@ impl Previewer {
         self.state.say(Level::Error, said.clone());
         self.making.failure =
             self.frames.timeline.wanted(frame).map(|key| Failure { frame, key, said });
+    }
+
+    /// A failure is one of the frame that is to be made next, or of nothing any more.
+    pub(super) fn review_failure(&mut self) {
+        let Some(failure) = &self.making.failure else { return };
+        let gap = self.frames.timeline.gap(&self.frames.store);
+        let next = gap.as_ref().and_then(|(_, frames)| frames.first());
+        if next != Some(&failure.key) {
+            self.forget_failure();
+        }
     }
 
     pub(super) fn forget_failure(&mut self) {

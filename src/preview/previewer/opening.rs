@@ -143,6 +143,7 @@ impl Previewer {
         self.open.run = None;
         self.compare_settings();
         self.refresh();
+        self.review_failure();
         self.end_stale_job();
         let missing =
             self.frames.timeline.wanted_keys().filter(|&key| !self.frames.store.has(key)).collect();

@@ -67,6 +67,10 @@ fn check_opened(desk: &Desk) -> Result<()> {
 /// What has gone wrong will not get better by waiting.
 pub(super) fn check_going(desk: &Desk) -> Result<()> {
     check_opened(desk)?;
+    if desk.has_actions() || desk.previewer().is_opening() {
+        // What was said may be about what is to be otherwise.
+        return Ok(());
+    }
     let failure = desk.previewer().state().messages.iter().find(|m| m.level == Level::Error);
     match failure {
         Some(message) => bail!("{}", message.text),

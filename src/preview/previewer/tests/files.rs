@@ -202,6 +202,28 @@ fn a_changed_file_is_noticed_and_read_again_when_asked() {
 }
 
 #[test]
+fn a_shot_that_somebody_else_has_changed_since_it_was_read_is_not_written_over() {
+    let stage = Stage::set();
+    let mut p = stage.start(false);
+    p.until_opened();
+    p.act(windy(2.5));
+    p.until_opened();
+    let theirs = SHOT.replace("\"nu_out\": 0.2", "\"nu_out\": 0.3");
+    fs::write(stage.shot(), &theirs).unwrap();
+    p.act(Action::Save);
+    let said = &p.0.state.messages.last().unwrap().text;
+    assert!(said.contains("has changed on disk since it was read"), "{said}");
+    assert_eq!(fs::read_to_string(stage.shot()).unwrap(), theirs);
+    p.act(Action::Reload);
+    p.wait_for(|p| !p.is_opening());
+    assert_eq!(p.0.state.version.edits.overrides(), ["air.velocity=[2.5,2.0,0.0]"]);
+    p.act(Action::Save);
+    p.until_opened();
+    let text = fs::read_to_string(stage.shot()).unwrap();
+    assert!(text.contains("2.5") && text.contains("\"nu_out\": 0.3"), "{text}");
+}
+
+#[test]
 fn what_others_do_to_a_saved_shot_stays_offered_and_changes_nothing_until_it_is_read_again() {
     let stage = Stage::set();
     let mut p = stage.start(false);
