@@ -9,6 +9,7 @@ use egui::Ui;
 use super::exports::Exports;
 use super::panel;
 use super::preferences::Preferences;
+use super::presses::Typing;
 use super::viewport::Viewports;
 use super::{keys, pace::Pace};
 use crate::preview::{Action, Effect, EyeAndTarget, Level, PanelName, Previewer, Source, Wake};
@@ -127,6 +128,16 @@ impl Desk {
         });
         self.wishes.extend(actions.into_iter().map(Wish::Action));
         self.work += began.elapsed();
+    }
+
+    /// Whether what is typed can be taken now.
+    pub fn typing(&self) -> Typing {
+        let state = self.previewer.state();
+        let is_asked = state.unsaved.is_some() || state.overwriting.is_some();
+        match !is_asked && self.panels.awaits_focus(&state.look) {
+            true => Typing::Waits,
+            false => Typing::Goes,
+        }
     }
 
     /// Not while a question is open, or a name is asked for.

@@ -9,18 +9,33 @@ use egui::Event;
 pub struct Presses {
     /// What is left for later passes.
     waiting: Vec<Event>,
+    /// Passes in a row in which what was typed had to wait.
+    held: u32,
 }
+
+/// Whether what is typed has somebody to go to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Typing {
+    Goes,
+    /// A text that asks for it is not there yet.
+    Waits,
+}
+
+/// So many passes what is typed waits at the most.
+const HELD_MAX: u32 = 10;
 
 impl Presses {
     /// The events of the next pass, of those that wait and the new ones: a press, the way from it, the
     /// release and the way from there are for passes of their own, and so is what is typed before a
     /// press, after it, or after a key with Ctrl.
-    pub fn take(&mut self, events: Vec<Event>) -> Vec<Event> {
+    pub fn take(&mut self, events: Vec<Event>, typing: Typing) -> Vec<Event> {
         self.waiting.extend(events);
-        let mut before = Before::default();
+        let waits = typing == Typing::Waits && self.held < HELD_MAX;
+        let mut before = Before { has_command: waits, ..Before::default() };
         let end = self.waiting.iter().position(|event| before.is_for_later(event));
         let end = end.unwrap_or(self.waiting.len());
         let rest = self.waiting.split_off(end);
+        self.held = if waits && !rest.is_empty() { self.held + 1 } else { 0 };
         std::mem::replace(&mut self.waiting, rest)
     }
 
@@ -86,32 +101,50 @@ mod tests {
         Event::PointerMoved(pos2(x, 0.0))
     }
 
+    fn take(presses: &mut Presses, events: Vec<Event>) -> Vec<Event> {
+        presses.take(events, Typing::Goes)
+    }
+
+    #[test]
+    fn what_is_typed_waits_for_a_text_that_is_about_to_be_there_but_not_for_ever() {
+        let mut presses = Presses::default();
+        let text = Event::Text("a".to_owned());
+        assert_eq!(presses.take(vec![moved(1.0), text.clone()], Typing::Waits), [moved(1.0)]);
+        for _ in 1..HELD_MAX {
+            assert!(presses.take(Vec::new(), Typing::Waits).is_empty() && presses.has_more());
+        }
+        let goes = presses.take(Vec::new(), Typing::Waits);
+        assert_eq!(goes, vec![text.clone()]);
+        assert!(presses.take(vec![text.clone()], Typing::Waits).is_empty());
+        assert_eq!(presses.take(Vec::new(), Typing::Goes), [text]);
+    }
+
     #[test]
     fn a_quick_drag_takes_three_passes_and_a_click_one() {
         let mut presses = Presses::default();
         let drag = vec![moved(1.0), button(1.0, true), moved(8.0), moved(9.0), button(9.0, false)];
-        assert_eq!(presses.take(drag), [moved(1.0), button(1.0, true)]);
+        assert_eq!(take(&mut presses, drag), [moved(1.0), button(1.0, true)]);
         assert!(presses.has_more());
-        assert_eq!(presses.take(Vec::new()), [moved(8.0), moved(9.0)]);
+        assert_eq!(take(&mut presses, Vec::new()), [moved(8.0), moved(9.0)]);
         // The pointer is where it was let go when that is answered.
-        assert_eq!(presses.take(vec![moved(7.0)]), [button(9.0, false)]);
-        assert_eq!(presses.take(Vec::new()), [moved(7.0)]);
+        assert_eq!(take(&mut presses, vec![moved(7.0)]), [button(9.0, false)]);
+        assert_eq!(take(&mut presses, Vec::new()), [moved(7.0)]);
         assert!(!presses.has_more());
         let click = vec![moved(8.0), button(8.0, true), button(8.0, false)];
-        assert_eq!(presses.take(click.clone()), click);
-        assert!(!presses.has_more() && presses.take(Vec::new()).is_empty());
+        assert_eq!(take(&mut presses, click.clone()), click);
+        assert!(!presses.has_more() && take(&mut presses, Vec::new()).is_empty());
     }
 
     #[test]
     fn what_is_typed_before_a_press_is_taken_before_it() {
         let mut presses = Presses::default();
         let text = Event::Text("a".to_owned());
-        let typed = presses.take(vec![text.clone(), button(1.0, true)]);
+        let typed = take(&mut presses, vec![text.clone(), button(1.0, true)]);
         assert_eq!(typed, vec![text.clone()]);
         let click = [button(1.0, true), button(1.0, false)];
         let rest = vec![button(1.0, false), text.clone()];
-        assert_eq!(presses.take(rest), click);
-        assert_eq!(presses.take(Vec::new()), [text]);
+        assert_eq!(take(&mut presses, rest), click);
+        assert_eq!(take(&mut presses, Vec::new()), [text]);
     }
 
     #[test]
@@ -127,8 +160,8 @@ mod tests {
         let (a, text) = (key(egui::Key::A, Modifiers::NONE), Event::Text("a".to_owned()));
         let mut presses = Presses::default();
         let typed = vec![open.clone(), open.clone(), a.clone(), text.clone()];
-        assert_eq!(presses.take(typed), [open.clone(), open]);
-        assert_eq!(presses.take(Vec::new()), [a, text]);
+        assert_eq!(take(&mut presses, typed), [open.clone(), open]);
+        assert_eq!(take(&mut presses, Vec::new()), [a, text]);
     }
 
     #[test]
@@ -137,9 +170,9 @@ mod tests {
         let events = [text, button(1.0, false), button(2.0, true), button(3.0, true), moved(4.0)];
         let events: Vec<Event> = events.iter().cycle().take(23).cloned().collect();
         let mut presses = Presses::default();
-        let mut taken = presses.take(events.clone());
+        let mut taken = take(&mut presses, events.clone());
         for _ in 0..events.len() {
-            taken.extend(presses.take(Vec::new()));
+            taken.extend(take(&mut presses, Vec::new()));
         }
         assert_eq!(taken, events);
     }

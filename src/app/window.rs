@@ -265,7 +265,7 @@ impl Program {
             Some(player) => player.step(&mut self.desk, &mut input, now)?,
             None => Request::Nothing,
         };
-        input.events = self.presses.take(input.events);
+        input.events = self.presses.take(input.events, self.desk.typing());
         let desk = &mut self.desk;
         let mut output = self.context.run_ui(input, |ui| desk.show(ui));
         let platform = std::mem::take(&mut output.platform_output);

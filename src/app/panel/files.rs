@@ -87,6 +87,11 @@ impl FilesPanel {
         }
     }
 
+    /// Whether the path is to be typed, and cannot be yet.
+    pub fn awaits_focus(&self) -> bool {
+        self.is_fresh || self.wants_focus
+    }
+
     /// The shot's own name, where it is, as one to change.
     fn suggest(&mut self, context: &Context<'_>) {
         let Source::Shot(request) = context.previewer.source() else { return };

@@ -17,7 +17,7 @@ use egui::Ui;
 use super::exports::Exports;
 use super::pace::Pace;
 use super::preferences::Preferences;
-use crate::preview::{Action, PanelName, Previewer};
+use crate::preview::{Action, Look, PanelName, Previewer};
 use crate::render::ColourBy;
 
 pub use room::Room;
@@ -60,6 +60,12 @@ impl Default for Panels {
 }
 
 impl Panels {
+    /// Whether a text that is open, or will be with the next pass, asks for what is typed.
+    pub fn awaits_focus(&self, look: &Look) -> bool {
+        (look.files_panel && self.files.awaits_focus())
+            || (look.save_panel && self.save.awaits_focus())
+    }
+
     /// The panels around the viewports.
     pub fn show(&mut self, ui: &mut Ui, context: &Context<'_>, actions: &mut Vec<Action>) {
         let look = context.previewer.state().look;
