@@ -101,8 +101,7 @@ fn undo_gives_the_frames_before_the_anchor_back_as_well() {
 #[test]
 fn keys_set_faster_than_plans_are_made_are_all_set() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     for frame in [2, 6, 10] {
         p.act(Action::GoTo { frame });
         p.act(Action::SetKey);
@@ -127,8 +126,7 @@ fn a_setting_changed_from_the_start_makes_everything_anew() {
 #[test]
 fn a_bad_value_is_said_and_changes_nothing() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(Action::Set { path: "view.nu_out".into(), value: json!(-1.0) });
     p.until_refused();
     let said = &p.0.state.messages.last().unwrap().text;
@@ -168,8 +166,7 @@ fn a_and_b_are_shown_together_and_change_places() {
 #[test]
 fn a_refused_value_takes_no_other_change_along() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(windy(1.0));
     p.act(Action::Set { path: "view.nu_out".into(), value: json!(0.3) });
     p.act(Action::Set { path: "view.nu_out".into(), value: json!(-5) });
@@ -189,8 +186,7 @@ fn a_refused_value_takes_no_other_change_along() {
 #[test]
 fn an_undo_that_cannot_be_planned_can_be_tried_again() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(windy(1.0));
     p.until_opened();
     let [mesh, away] = ["sheet.obj", "away.obj"].map(|name| stage.folder.path().join(name));

@@ -13,8 +13,7 @@ use crate::request::Request;
 #[test]
 fn a_failed_opening_leaves_the_edits_and_another_asks_before_they_are_lost() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(windy(1.0));
     p.until_opened();
     p.act(Action::OpenOwn);
@@ -103,8 +102,7 @@ fn what_was_done_before_a_shot_was_saved_can_be_undone_and_compared_after() {
 #[test]
 fn a_saved_shot_that_somebody_else_has_changed_is_not_written_over() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(windy(2.5));
     p.act(Action::Save);
     p.until_opened();
@@ -131,8 +129,7 @@ fn a_saved_shot_that_somebody_else_has_changed_is_not_written_over() {
 #[test]
 fn a_shot_saved_elsewhere_finds_its_files() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(windy(2.5));
     p.until_opened();
     let deep = stage.folder.path().join("deep");
@@ -147,8 +144,7 @@ fn a_shot_saved_elsewhere_finds_its_files() {
 #[test]
 fn another_file_is_written_over_only_after_a_word_about_it() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     let to = stage.folder.path().join("other.json");
     fs::write(&to, "mine").unwrap();
     let save = Action::SaveAs { path: to.clone(), overwrite: false };
@@ -188,8 +184,7 @@ fn the_programs_own_shot_is_saved_as_a_copy_with_its_files() {
 #[test]
 fn a_changed_file_is_noticed_and_read_again_when_asked() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     let hash = p.0.scenery().unwrap().settings_hash.clone();
     // Times of files are as fine as the file system has them.
     std::thread::sleep(Duration::from_millis(20));
@@ -204,8 +199,7 @@ fn a_changed_file_is_noticed_and_read_again_when_asked() {
 #[test]
 fn a_shot_that_somebody_else_has_changed_since_it_was_read_is_not_written_over() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(windy(2.5));
     p.until_opened();
     let theirs = SHOT.replace("\"nu_out\": 0.2", "\"nu_out\": 0.3");
@@ -226,8 +220,7 @@ fn a_shot_that_somebody_else_has_changed_since_it_was_read_is_not_written_over()
 #[test]
 fn what_others_do_to_a_saved_shot_stays_offered_and_changes_nothing_until_it_is_read_again() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(windy(2.5));
     p.act(Action::Save);
     p.until_opened();
@@ -259,8 +252,7 @@ fn what_others_do_to_a_saved_shot_stays_offered_and_changes_nothing_until_it_is_
 #[test]
 fn what_was_undone_since_a_shot_was_saved_is_undone_when_it_is_read_again() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(Action::Set { path: "view.nu_out".into(), value: json!(0.5) });
     p.act(windy(2.5));
     p.act(Action::Save);
@@ -279,8 +271,7 @@ fn what_was_undone_since_a_shot_was_saved_is_undone_when_it_is_read_again() {
 #[test]
 fn a_value_refused_before_a_saved_shot_is_read_leaves_it_open() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(windy(2.5));
     p.until_opened();
     let to = stage.folder.path().join("other.json");
@@ -296,8 +287,7 @@ fn a_value_refused_before_a_saved_shot_is_read_leaves_it_open() {
 #[test]
 fn what_is_saved_is_saved_though_it_cannot_be_planned_just_now() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(windy(2.5));
     p.until_opened();
     let [mesh, away] = ["sheet.obj", "away.obj"].map(|name| stage.folder.path().join(name));
@@ -318,8 +308,7 @@ fn what_is_saved_is_saved_though_it_cannot_be_planned_just_now() {
 fn settings_are_saved_before_something_else_is_opened_if_that_is_asked_for() {
     let stage = Stage::set();
     let run = stage.finished_run();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(windy(2.5));
     p.until_opened();
     p.act(Action::Open { path: run });
@@ -333,8 +322,7 @@ fn settings_are_saved_before_something_else_is_opened_if_that_is_asked_for() {
 #[test]
 fn why_a_shot_could_not_be_opened_stays_said_when_something_else_is_planned() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(Action::Open { path: stage.folder.path().join("nothing.json") });
     p.until_refused();
     p.act(windy(2.5));

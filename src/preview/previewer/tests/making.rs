@@ -25,8 +25,7 @@ fn the_adaptive_run_counts_costs_and_keeps_no_frames() {
 fn the_adaptive_run_and_its_costs_end_where_a_finished_run_is_opened() {
     let stage = Stage::set();
     let run = stage.finished_run();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     p.act(Action::MeasureAdaptive { on: true });
     p.until("a cost", |p| p.rival_costs().iter().any(Option::is_some));
     p.act(Action::Open { path: run });
@@ -87,8 +86,7 @@ fn what_a_frame_cost_is_known_when_the_shot_is_opened_again() {
 #[test]
 fn the_same_warning_of_many_frames_is_said_once() {
     let stage = Stage::set();
-    let mut p = stage.start(false);
-    p.until_opened();
+    let mut p = stage.opened();
     for (shown, warning) in
         [(3, "3 crossings"), (4, "12 crossings"), (4, "thin"), (5, "1 crossings")]
     {

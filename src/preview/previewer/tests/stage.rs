@@ -35,6 +35,13 @@ impl Stage {
         self.folder.path().join("shot.json")
     }
 
+    /// With the shot open and nothing simulated.
+    pub fn opened(&self) -> Driven {
+        let mut p = self.start(false);
+        p.until_opened();
+        p
+    }
+
     pub fn request(&self) -> Request {
         Request {
             shot: Some(self.shot()),
