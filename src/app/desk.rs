@@ -133,8 +133,7 @@ impl Desk {
     /// Whether what is typed can be taken now.
     pub fn typing(&self) -> Typing {
         let state = self.previewer.state();
-        let is_asked = state.unsaved.is_some() || state.overwriting.is_some();
-        match !is_asked && self.panels.awaits_focus(&state.look) {
+        match !state.has_question() && self.panels.awaits_focus(&state.look) {
             true => Typing::Waits,
             false => Typing::Goes,
         }
@@ -143,8 +142,7 @@ impl Desk {
     /// Not while a question is open, or a name is asked for.
     fn takes_keys(&self) -> bool {
         let state = self.previewer.state();
-        let is_asked = state.unsaved.is_some() || state.overwriting.is_some();
-        !is_asked && !state.look.files_panel && !state.look.save_panel
+        !state.has_question() && !state.look.files_panel && !state.look.save_panel
     }
 
     /// Of several files the first is opened.

@@ -6,6 +6,6 @@ mod exports;
 mod files;
 mod parameters;
 mod room;
-mod seat;
+pub(super) mod seat;
 mod timeline;
 mod words;

@@ -229,6 +229,11 @@ pub fn camera_setting(written: &Value) -> &'static str {
     }
 }
 
+/// Whether a setting is a camera, or part of one.
+pub(super) fn is_camera_setting(path: &str) -> bool {
+    path == "camera" || path.starts_with("viewers")
+}
+
 /// With the name it has where it is shown: a camera that moves into the shot file loses its own
 /// file's.
 fn file_of_shot(resolved: &Value, scene: &Scene) -> Result<CameraFile, CameraEditError> {

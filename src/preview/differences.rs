@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
 
+use super::camera_edit::is_camera_setting;
 use super::edits::is_same;
 use super::{Edits, Parameter, value};
 
@@ -40,7 +41,7 @@ pub fn tuned_differences(a: Said<'_>, b: Said<'_>, parameters: &[Parameter]) -> 
         _ => of_a.is_some() || of_b.is_some(),
     };
     let difference = |path: &str| {
-        if path == CAMERA || path.starts_with("viewers") {
+        if is_camera_setting(path) {
             let values = [String::new(), String::new()];
             return is_other(a.edits.get(path), b.edits.get(path))
                 .then(|| Difference { name: CAMERA.to_owned(), values });

@@ -13,6 +13,7 @@ use serde_json::{Number, Value};
 pub struct Edits(BTreeMap<String, Value>);
 
 impl Edits {
+    /// What the file says.
     pub const fn none() -> Self {
         Self(BTreeMap::new())
     }

@@ -230,6 +230,11 @@ const NOTE_LASTS: f64 = 10.0;
 const MESSAGES_KEPT: usize = 20;
 
 impl State {
+    /// Whether a question waits for its answer, before which nothing else is done.
+    pub fn has_question(&self) -> bool {
+        self.unsaved.is_some() || self.overwriting.is_some()
+    }
+
     /// A message that repeats the last one is said once.
     pub fn say(&mut self, level: Level, text: impl Into<String>) {
         let message = Message { level, text: text.into(), until: None };

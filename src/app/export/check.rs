@@ -8,6 +8,7 @@ use std::path::Path;
 use anyhow::{Result, bail, ensure};
 
 use super::{ExportKind, ExportRequest, ExportView};
+use crate::shot::View;
 
 /// The least and the greatest width of a view's picture (px): as small as a folder's icon, and as large
 /// as graphics adapters draw.
@@ -28,7 +29,7 @@ pub(super) fn checked_frames(request: &ExportRequest) -> Result<Vec<u32>> {
         ExportKind::Still { .. } => check_png(&request.to)?,
         ExportKind::Sheet { .. } => {
             check_png(&request.to)?;
-            check_witness(&request.view)?;
+            sheet_witness(&request.view)?;
         }
         ExportKind::Sequence { .. } | ExportKind::Video { .. } => {}
         // Its files are no pictures.
@@ -110,9 +111,10 @@ fn check_png(path: &Path) -> Result<()> {
     Ok(())
 }
 
-fn check_witness(view: &ExportView) -> Result<()> {
+/// Who looks from outside on a contact sheet.
+pub(super) fn sheet_witness(view: &ExportView) -> Result<&View> {
     match view {
-        ExportView::Witness(_) | ExportView::Both(_) => Ok(()),
+        ExportView::Witness(view) | ExportView::Both(view) => Ok(view),
         ExportView::Shot => bail!("a contact sheet shows both views: it needs a witness's"),
     }
 }

@@ -1,12 +1,12 @@
 //! PNG pictures: one, a page of many, or a folder of them.
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 
-use super::check::{check_page, picture_name};
+use super::Task;
+use super::check::{check_page, picture_name, sheet_witness};
 use super::job::Outcome;
 use super::pictures::Pictures;
 use super::place::{opened_folder, opened_folder_of};
-use super::{ExportView, Task};
 use crate::output::PendingFile;
 use crate::run::RunInfo;
 use crate::sheet::{Caption, SheetItem, SheetOptions, compose};
@@ -32,9 +32,7 @@ pub(super) fn still(task: Task<'_>, number: u32) -> Result<Outcome> {
 /// # Errors
 /// If the file cannot be written, the page is too large, or a frame cannot be drawn.
 pub(super) fn sheet(task: Task<'_>, frames: &[u32]) -> Result<Outcome> {
-    let (ExportView::Witness(witness) | ExportView::Both(witness)) = &task.request.view else {
-        bail!("a contact sheet shows both views: it needs a witness's");
-    };
+    let witness = sheet_witness(&task.request.view)?;
     let _folder = opened_folder_of(&task.request.to)?;
     let pending = PendingFile::create(&task.request.to)?;
     let mut pictures = Pictures::new(task)?;

@@ -138,9 +138,8 @@ impl Panels {
             ui.ctx().memory(|memory| memory.focused().is_some()),
         );
         let state = context.previewer.state();
-        let is_asked = state.unsaved.is_some() || state.overwriting.is_some();
         let is_pressed = ui.input(|input| input.key_pressed(egui::Key::Escape));
-        if !is_pressed || is_asked || egui::Popup::is_any_open(ui.ctx()) {
+        if !is_pressed || state.has_question() || egui::Popup::is_any_open(ui.ctx()) {
             return;
         }
         let is_open = |panel: &PanelName| *state.look.clone().panel_mut(*panel);

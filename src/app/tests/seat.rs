@@ -45,6 +45,20 @@ impl Default for Setting {
     }
 }
 
+/// With a stage's shot being opened, and nothing kept beyond it.
+pub fn desk_at(stage: &Stage, setting: &Setting) -> Desk {
+    let wake: Wake = Arc::new(|| {});
+    let previewer = Previewer::start(Start {
+        source: Source::Shot(stage.request()),
+        look: Look::default(),
+        cache: None,
+        memory: 64 << 20,
+        simulating: setting.simulating,
+        wake: wake.clone(),
+    });
+    Desk::new(previewer, Preferences::default(), AdapterChoice::Software, wake)
+}
+
 impl Seat {
     /// With the small shot open and nothing simulated.
     pub fn take() -> Self {
@@ -63,16 +77,7 @@ impl Seat {
     pub fn take_with(setting: Setting) -> Self {
         let stage = Stage::set();
         std::fs::write(stage.shot(), &setting.shot).unwrap();
-        let wake: Wake = Arc::new(|| {});
-        let previewer = Previewer::start(Start {
-            source: Source::Shot(stage.request()),
-            look: Look::default(),
-            cache: None,
-            memory: 64 << 20,
-            simulating: setting.simulating,
-            wake: wake.clone(),
-        });
-        let desk = Desk::new(previewer, Preferences::default(), AdapterChoice::Software, wake);
+        let desk = desk_at(&stage, &setting);
         let desk = Harness::builder()
             .with_size(vec2(setting.size[0], setting.size[1]) + Vec2::splat(2.0 * MARGIN))
             .with_max_steps(PASSES_MAX)

@@ -57,13 +57,15 @@ impl Previewer {
                 let path = camera_setting(&plan.requested.written);
                 let before = CameraEdit::of_shot(plan.resolved(), &plan.requested.scene);
                 if before.as_ref() != Ok(&camera) {
+                    if self.state.version.edits.get(path).is_none() {
+                        self.planning.unedited_camera = before.ok().map(|camera| camera.json());
+                    }
                     self.edit_camera(path, camera.json());
                 }
             }
             Err(error) => {
                 self.state.dragged_camera = None;
-                self.state.say(Level::Warning, error.to_string());
-                self.planning.refusals.push(error.to_string());
+                self.say_until_planned(Level::Warning, error.to_string());
             }
         }
     }

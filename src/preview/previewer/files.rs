@@ -112,8 +112,7 @@ impl Previewer {
                 Ok(())
             }
             Err(why) => {
-                self.state.say(Level::Error, why.clone());
-                self.planning.refusals.push(why);
+                self.say_until_planned(Level::Error, why);
                 Err(NotSaved)
             }
         }

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::parts::{Awaited, Occasion};
 use super::{Effect, Previewer};
 use crate::preview::Plan;
-use crate::preview::camera_edit::CameraEdit;
 use crate::preview::planner::Opened;
 use crate::preview::scenery::Scenery;
 use crate::preview::state::{Level, Playback};
@@ -27,17 +26,23 @@ impl Previewer {
         self.act_on_deferred();
     }
 
+    /// Says what is true until a plan can be made.
+    pub(super) fn say_until_planned(&mut self, level: Level, text: String) {
+        self.state.say(level, text.clone());
+        self.planning.refusals.push(text);
+    }
+
     /// Returns to what was in force before, or to a change in between that may be possible.
     fn take_refusal(&mut self, awaited: Awaited, why: String) {
-        self.state.say(Level::Error, why.clone());
         let Awaited { source, occasion, saved, .. } = awaited;
         let refused = match occasion {
             Occasion::Opening => {
+                self.state.say(Level::Error, why.clone());
                 self.planning.opening_failure = Some(why);
                 None
             }
             Occasion::Change | Occasion::Reading => {
-                self.planning.refusals.push(why);
+                self.say_until_planned(Level::Error, why);
                 self.planning.tried.pop()
             }
         };
@@ -62,6 +67,9 @@ impl Previewer {
         let Awaited { source, occasion, saved, follows_refusal, .. } = awaited;
         let is_new = occasion == Occasion::Opening || self.open.scenery.is_none();
         let is_renamed = self.open.source != source;
+        if occasion != Occasion::Change {
+            self.planning.unedited_camera = None;
+        }
         if occasion != Occasion::Change && self.open.saved.take().is_some() {
             // Versions counted from the text before it was saved.
             self.state.history = Default::default();
@@ -85,7 +93,6 @@ impl Previewer {
             Opened::Shot(plan) => self.follow(Arc::from(plan), is_new),
             Opened::Run(run) => self.show_run(run),
         }
-        self.note_unedited_camera();
         self.planning.proved = self.standing();
         self.planning.tried.clear();
         if is_new {
@@ -110,18 +117,6 @@ impl Previewer {
             // It may be another now.
             self.planning.unedited_camera = None;
         }
-    }
-
-    /// The camera as the shot has it, while nobody has edited it.
-    fn note_unedited_camera(&mut self) {
-        let is_camera = |path: &str| path == "camera" || path.starts_with("viewers");
-        if self.state.version.edits.iter().any(|(path, _)| is_camera(path)) {
-            return;
-        }
-        let of_plan =
-            |plan: &Arc<Plan>| CameraEdit::of_shot(plan.resolved(), &plan.requested.scene);
-        let camera = self.open.plan.as_ref().and_then(|plan| of_plan(plan).ok());
-        self.planning.unedited_camera = camera.map(|camera| camera.json());
     }
 
     fn follow(&mut self, plan: Arc<Plan>, is_new: bool) {

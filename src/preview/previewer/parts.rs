@@ -60,7 +60,7 @@ pub(super) struct Planning {
     pub proved: Standing,
     /// What has been changed to since, in order; a change that cannot be takes none of the others along.
     pub tried: Vec<Standing>,
-    /// The shot camera as the shot has it, once it has been edited: one that is so again is no edit.
+    /// The shot camera as it was before it was edited: one that is so again is no edit.
     pub unedited_camera: Option<Value>,
     /// What has to wait for a plan, and where the user was when asking for it.
     pub deferred: VecDeque<Deferred>,

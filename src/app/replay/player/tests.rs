@@ -1,24 +1,13 @@
-use std::sync::Arc;
 use std::time::Instant;
 
 use super::*;
-use crate::app::Preferences;
+use crate::app::tests::seat::{Setting, desk_at};
+use crate::preview::Action;
 use crate::preview::stage::{self, LAST, Stage};
-use crate::preview::{Action, Look, Previewer, Source, Start, Wake};
-use crate::render::AdapterChoice;
 
 /// At which something is asked for that nobody ever does.
 fn desk(stage: &Stage) -> Desk {
-    let wake: Wake = Arc::new(|| {});
-    let previewer = Previewer::start(Start {
-        source: Source::Shot(stage.request()),
-        look: Look::default(),
-        cache: None,
-        memory: 64 << 20,
-        simulating: false,
-        wake: wake.clone(),
-    });
-    let mut desk = Desk::new(previewer, Preferences::default(), AdapterChoice::Software, wake);
+    let mut desk = desk_at(stage, &Setting::default());
     desk.act(Action::Play);
     desk
 }
